@@ -1,0 +1,71 @@
+"""The radar side: line of sight, baselines, coherence, unwrapping and the height error.
+
+Stands alone: it takes arrays of satellite positions and knows no orbit, study or optimizer.
+Vectors are RTN (R radial outward, T along-track, N along the orbit normal); SI and radians.
+"""
+
+from .baselines import (
+    PairGeometry,
+    critical_baseline,
+    height_of_ambiguity,
+    pair_geometry,
+    scene_critical_baseline,
+)
+from .coherence import common_band, snr_coherence
+from .errors import (
+    BaselineDecorrelation,
+    ErrorBudget,
+    ErrorSource,
+    HeldConstant,
+    Scale,
+    SharedBy,
+    Weighting,
+)
+from .geometry import line_of_sight
+from .height import HeightError, HeightStatus, height_error, height_error_of
+from .phase_information import fisher_information
+from .phase_model import PhaseModel, pair_coherence, phase_model
+from .radar import Radar, monostatic, one_transmitter, ping_pong
+from .scene import LookSide, Scene
+from .unwrapping import (
+    UnwrappingLadder,
+    two_baseline_probability,
+    unwrapping_ladder,
+    unwrapping_probability,
+)
+
+__all__ = [
+    "BaselineDecorrelation",
+    "ErrorBudget",
+    "ErrorSource",
+    "HeightError",
+    "HeightStatus",
+    "HeldConstant",
+    "LookSide",
+    "PairGeometry",
+    "PhaseModel",
+    "Radar",
+    "Scale",
+    "Scene",
+    "SharedBy",
+    "UnwrappingLadder",
+    "Weighting",
+    "common_band",
+    "critical_baseline",
+    "fisher_information",
+    "height_error",
+    "height_error_of",
+    "height_of_ambiguity",
+    "line_of_sight",
+    "monostatic",
+    "one_transmitter",
+    "pair_coherence",
+    "pair_geometry",
+    "phase_model",
+    "ping_pong",
+    "scene_critical_baseline",
+    "snr_coherence",
+    "two_baseline_probability",
+    "unwrapping_ladder",
+    "unwrapping_probability",
+]

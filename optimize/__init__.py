@@ -1,0 +1,32 @@
+"""Scores formations by the height-error model, and searches for the best within limits."""
+
+from .assessment import Assessment, ImagePair, Rung, Unwrapping, assess
+from .constraints import Bound, ConstraintReport, Constraints, Limit
+from .design_space import DesignSpace, DesignVariables
+from .genetic import GeneticSettings
+from .problem import Evaluation, Problem
+from .result import EvaluateResult, OptimizeResult
+from .search import GenerationRecord, SearchResult, SearchSettings, search
+
+__all__ = [
+    "Assessment",
+    "Bound",
+    "ConstraintReport",
+    "Constraints",
+    "DesignSpace",
+    "DesignVariables",
+    "EvaluateResult",
+    "Evaluation",
+    "GenerationRecord",
+    "GeneticSettings",
+    "ImagePair",
+    "Limit",
+    "OptimizeResult",
+    "Problem",
+    "Rung",
+    "SearchResult",
+    "SearchSettings",
+    "Unwrapping",
+    "assess",
+    "search",
+]

@@ -1,0 +1,154 @@
+"""The optimization problem: score a whole population of formations in one call."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from formation import relative_positions
+from insar import ErrorBudget, HeightError, Radar, Scene, height_error_of, phase_model
+
+from .constraints import (
+    FEASIBILITY_TOLERANCE,
+    ConstraintReport,
+    Constraints,
+    Limit,
+    Population,
+)
+
+Array = NDArray[np.float64]
+
+
+class Evaluation(NamedTuple):
+    """Scores of P formations.
+
+    Attributes
+    ----------
+    objectives : (P,) — region height error [m]; `inf` where no height is measured.
+    violations : (P, C) — how far each limit is broken, in the units of `Limit.margins`; 0 where
+        it is kept.
+    """
+
+    objectives: Array
+    violations: Array
+
+    @property
+    def total_violation(self) -> Array:
+        """Sum of the violations, (P,); 0 for a formation that keeps every limit."""
+        total: Array = self.violations.sum(axis=-1)
+        return total
+
+    @property
+    def feasible(self) -> NDArray[np.bool_]:
+        """Which formations keep every limit and measure a height, (P,)."""
+        feasible: NDArray[np.bool_] = (self.total_violation == 0.0) & np.isfinite(self.objectives)
+        return feasible
+
+
+@dataclass(frozen=True, kw_only=True)
+class Problem:
+    """Minimize the region height error within the constraints.
+
+    Parameters
+    ----------
+    mean_motion : scalar — angular rate of the reference orbit [rad/s].
+    scene : the S segments; their time zero is the epoch of the states.
+    radar : the radar and its images.
+    errors : the error budget.
+    constraints : the limits.
+    """
+
+    mean_motion: float
+    scene: Scene
+    radar: Radar
+    errors: ErrorBudget
+    constraints: Constraints
+
+    @cached_property
+    def limits(self) -> tuple[Limit, ...]:
+        """The C limits, in the order of `Evaluation.violations`."""
+        return self.constraints.limits
+
+    def evaluate(self, states: ArrayLike) -> Evaluation:
+        """Score formations, all in one batch.
+
+        Parameters
+        ----------
+        states : (P, N, 6) — RTN states at t = 0 [m, m/s].
+
+        Returns
+        -------
+        Evaluation
+        """
+        objectives, margins = self.objectives_and_margins(states)
+        worst = np.zeros((objectives.shape[0], len(margins)))
+        for column, margin in enumerate(margins):
+            worst[:, column] = margin.min(axis=-1)
+        broken = worst < -FEASIBILITY_TOLERANCE
+        return Evaluation(objectives, np.where(broken, -worst, 0.0))
+
+    def objectives_and_margins(self, states: ArrayLike) -> tuple[Array, list[Array]]:
+        """Region height error, and the margin of every single limited item.
+
+        Parameters
+        ----------
+        states : (P, N, 6) — RTN states at t = 0 [m, m/s].
+
+        Returns
+        -------
+        objectives : (P,) — region height error [m].
+        margins : for each limit (P, items) — see `Limit.margins`; each item is a smooth function
+            of the design, the worst of them is not.
+        """
+        population = self.population(states)
+        error = self.height_error(population)
+        return error.region, [limit.margins(population) for limit in self.limits]
+
+    def population(self, states: ArrayLike) -> Population:
+        """Formations with their phase model at the scene's times.
+
+        Parameters
+        ----------
+        states : (P, N, 6) — RTN states at t = 0 [m, m/s].
+        """
+        state = np.asarray(states, dtype=np.float64)
+        positions = relative_positions(state, self.scene.times, mean_motion=self.mean_motion)
+        return Population(
+            states=state,
+            model=phase_model(positions, self.scene, radar=self.radar, errors=self.errors),
+            mean_motion=self.mean_motion,
+            scene=self.scene,
+            radar=self.radar,
+            errors=self.errors,
+        )
+
+    def height_error(self, population: Population) -> HeightError:
+        """Height error of formations.
+
+        Parameters
+        ----------
+        population : from `population`.
+        """
+        return height_error_of(
+            population.model, scene=self.scene, radar=self.radar, errors=self.errors
+        )
+
+    def constraint_reports(self, population: Population) -> tuple[ConstraintReport, ...]:
+        """How the first formation of a population stands to each limit.
+
+        Parameters
+        ----------
+        population : from `population`.
+        """
+        return tuple(
+            ConstraintReport(
+                limit,
+                value=float(limit.worst(population)[0]),
+                satisfied=bool(limit.margins(population)[0].min() >= -FEASIBILITY_TOLERANCE),
+            )
+            for limit in self.limits
+        )

@@ -1,0 +1,138 @@
+"""Local refinement of a design by sequential quadratic programming, never for the worse."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from contextlib import suppress
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import minimize
+
+from .constraints import FEASIBILITY_TOLERANCE
+
+Array = NDArray[np.float64]
+Score = Callable[[Array], tuple[Array, Array]]
+"""Objectives (P,) and margins (P, items), positive when kept, of (P, D) designs."""
+
+_STEP = 1e-6
+"""Step of the central differences in parts of the box: truncation and rounding near 1e-10."""
+
+_SAFE_MARGIN = 1e-8
+"""Margin that the quadratic programs keep, so that their last digits stay feasible."""
+
+
+class Refinement(NamedTuple):
+    """Result of `refine`.
+
+    Attributes
+    ----------
+    design : (D,) — the best design met, the start included.
+    evaluations : formations scored.
+    """
+
+    design: Array
+    evaluations: int
+
+
+def refine(
+    score: Score, start: Array, *, upper: Array, free: int, max_iterations: int = 100
+) -> Refinement:
+    """Descend from a design to a local optimum within the constraints.
+
+    Parameters
+    ----------
+    score : scores a batch of designs.
+    start : (D,) — the design to improve; it may be infeasible.
+    upper : (D,) — the box is ±upper.
+    free : how many leading variables may move; a sign, which is not continuous, may not.
+    max_iterations : of the quadratic programs.
+
+    Returns
+    -------
+    Refinement — feasible if the start is, and never worse than it.
+
+    Notes
+    -----
+    SLSQP on the logarithm of the height error, with central differences scored as one batch.
+    Every point on the way is a candidate, so a failed line search loses nothing.
+    """
+    descent = _Descent(score, start, upper, free)
+    # A descent that leaves the designs that measure a height ends; the best so far stands.
+    with suppress(_NotMeasurableError):
+        minimize(
+            descent.objective,
+            start[:free] / upper[:free],
+            jac=descent.objective_gradient,
+            method="SLSQP",
+            bounds=[(-1.0, 1.0)] * free,
+            constraints=descent.constraints(),
+            options={"maxiter": max_iterations, "ftol": 1e-12},
+        )
+    return Refinement(descent.best_design, descent.evaluations)
+
+
+class _NotMeasurableError(Exception):
+    """The descent reached a design without a finite height error or margin."""
+
+
+class _Descent:
+    """Values and gradients at the current point, from one batched scoring of its neighbours."""
+
+    def __init__(self, score: Score, start: Array, upper: Array, free: int) -> None:
+        self._score, self._start, self._upper, self._free = score, start, upper, free
+        self._point: Array | None = None
+        self.evaluations = 0
+        self.best_design = start
+        self._best = (np.inf, np.inf)
+
+    def constraints(self) -> tuple[dict[str, object], ...]:
+        """The constraints as SLSQP takes them; none if there are no margins."""
+        self._visit(self._start[: self._free] / self._upper[: self._free])
+        if self._margins.shape[-1] == 0:
+            return ()
+        return ({"type": "ineq", "fun": self.margins, "jac": self.margins_gradient},)
+
+    def objective(self, point: Array) -> float:
+        self._visit(point)
+        return float(self._values[0])
+
+    def objective_gradient(self, point: Array) -> Array:
+        self._visit(point)
+        return self._gradient(self._values)
+
+    def margins(self, point: Array) -> Array:
+        self._visit(point)
+        safe: Array = self._margins[0] - _SAFE_MARGIN
+        return safe
+
+    def margins_gradient(self, point: Array) -> Array:
+        self._visit(point)
+        return self._gradient(self._margins).T
+
+    def _gradient(self, values: Array) -> Array:
+        forward, backward = values[1 : 1 + self._free], values[1 + self._free :]
+        gradient: Array = (forward - backward) / (2.0 * _STEP)
+        return gradient
+
+    def _visit(self, point: Array) -> None:
+        if self._point is not None and np.array_equal(point, self._point):
+            return
+        steps = _STEP * np.eye(self._free)
+        points = np.concatenate([point[None], point + steps, point - steps])
+        designs = np.broadcast_to(self._start, (len(points), self._start.size)).copy()
+        designs[:, : self._free] = points * self._upper[: self._free]
+        objectives, margins = self._score(designs)
+        self.evaluations += len(designs)
+        self._remember(designs[0], float(objectives[0]), margins[0])
+        if not (np.all(np.isfinite(objectives)) and np.all(np.isfinite(margins))):
+            raise _NotMeasurableError
+        self._values, self._margins = np.log(objectives), margins
+        self._point = np.array(point)
+
+    def _remember(self, design: Array, objective: float, margins: Array) -> None:
+        overshoot = np.where(margins < -FEASIBILITY_TOLERANCE, -margins, 0.0)
+        rank = (float(overshoot.sum()), objective)
+        if np.all(np.abs(design) <= self._upper) and rank < self._best:
+            self.best_design, self._best = design.copy(), rank

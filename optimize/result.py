@@ -1,0 +1,53 @@
+"""Results of the studies that score formations."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from .assessment import Assessment
+from .problem import Problem
+from .search import SearchResult
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class OptimizeResult:
+    """Result of a study of kind `optimize`.
+
+    Attributes
+    ----------
+    problem : what was minimized, with scene, radar, errors and limits.
+    critical_baseline : scalar — the smallest over the segments [m].
+    initial : the formation given, or satellites equally spaced on the largest allowed orbit.
+    best : the formation found; of the least violation where none is feasible.
+    compare : other formations, assessed in the same way.
+    search : how it was found.
+    warnings : what a reader must know before using the result.
+    """
+
+    problem: Problem
+    critical_baseline: float
+    initial: Assessment
+    best: Assessment
+    compare: tuple[Assessment, ...]
+    search: SearchResult
+    warnings: tuple[str, ...]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class EvaluateResult:
+    """Result of a study of kind `evaluate`: a given formation, not searched.
+
+    Attributes
+    ----------
+    problem : scene, radar, errors and limits.
+    critical_baseline : scalar — the smallest over the segments [m].
+    formation : the formation given.
+    compare : other formations, assessed in the same way.
+    warnings : what a reader must know before using the result.
+    """
+
+    problem: Problem
+    critical_baseline: float
+    formation: Assessment
+    compare: tuple[Assessment, ...]
+    warnings: tuple[str, ...]

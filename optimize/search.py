@@ -1,0 +1,232 @@
+"""The search: a genetic algorithm over the whole space, then local refinement of its best."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .design_space import DesignSpace
+from .genetic import Generation, GeneticSettings, generations
+from .problem import Evaluation, Problem
+from .refinement import refine
+
+Array = NDArray[np.float64]
+
+
+class SearchSettings(NamedTuple):
+    """Settings of `search`.
+
+    Attributes
+    ----------
+    genetic : of the genetic algorithm.
+    refinements : how many of the best, mutually distant designs are refined; 0 for none.
+    """
+
+    genetic: GeneticSettings = GeneticSettings()
+    refinements: int = 8
+
+
+class GenerationRecord(NamedTuple):
+    """One line of the convergence history.
+
+    Attributes
+    ----------
+    generation : 0 for the first; the refinement adds one line at the end.
+    evaluations : formations scored so far.
+    best : best region height error of a feasible formation so far [m]; `inf` before the first.
+    mean : mean region height error of the generation's feasible formations [m]; NaN without any.
+    feasible_fraction : share of the generation that is feasible.
+    """
+
+    generation: int
+    evaluations: int
+    best: float
+    mean: float
+    feasible_fraction: float
+
+
+@dataclass(frozen=True, eq=False)
+class SearchResult:
+    """What `search` found.
+
+    Attributes
+    ----------
+    design : (D,) — the best design; of the least violation if none is feasible.
+    objective : its region height error [m].
+    feasible : whether it keeps every limit.
+    genetic_objective : region height error of the genetic algorithm's own best [m]; `inf` if none
+        was feasible.
+    evaluations : formations scored.
+    history : a line each generation.
+    interrupted : whether the search was stopped before its end.
+    """
+
+    design: Array
+    objective: float
+    feasible: bool
+    genetic_objective: float
+    evaluations: int
+    history: tuple[GenerationRecord, ...]
+    interrupted: bool
+
+
+def search(
+    problem: Problem,
+    space: DesignSpace,
+    *,
+    settings: SearchSettings,
+    rng: np.random.Generator,
+    start: Array | None = None,
+    on_generation: Callable[[GenerationRecord], None] | None = None,
+) -> SearchResult:
+    """Search the design space for the smallest region height error within the limits.
+
+    Parameters
+    ----------
+    problem : what is minimized, and within which limits.
+    space : the designs that are searched.
+    settings : of the search.
+    rng : the only source of randomness.
+    start : (P0, D) — designs that join the first generation.
+    on_generation : called after each generation.
+
+    Returns
+    -------
+    SearchResult — never worse than a feasible `start`. A KeyboardInterrupt ends the search and
+    returns the best so far, marked `interrupted`.
+    """
+    run = _Search(problem, space, on_generation)
+    interrupted = False
+    try:
+        for generation in generations(
+            run.evaluate,
+            lower=-space.upper,
+            upper=space.upper,
+            settings=settings.genetic,
+            rng=rng,
+            start=start,
+        ):
+            run.record(generation)
+    except KeyboardInterrupt:
+        interrupted = True
+    genetic_objective = run.best_objective if run.best_feasible else np.inf
+    try:
+        if not interrupted:
+            run.refine_best(settings.refinements)
+    except KeyboardInterrupt:
+        interrupted = True
+    return run.result(genetic_objective, interrupted=interrupted)
+
+
+@dataclass
+class _Search:
+    """The best design so far, and how it was reached."""
+
+    problem: Problem
+    space: DesignSpace
+    on_generation: Callable[[GenerationRecord], None] | None
+    evaluations: int = 0
+    history: list[GenerationRecord] = field(default_factory=list)
+    candidates: list[tuple[float, float, Array]] = field(default_factory=list)
+    _best: tuple[float, float, Array] | None = None
+
+    @property
+    def best_feasible(self) -> bool:
+        return self._best is not None and self._best[0] == 0.0 and np.isfinite(self._best[1])
+
+    @property
+    def best_objective(self) -> float:
+        return np.inf if self._best is None else self._best[1]
+
+    def evaluate(self, designs: Array) -> Evaluation:
+        self.evaluations += len(designs)
+        return self.problem.evaluate(self.space.states(designs))
+
+    def record(self, generation: Generation) -> None:
+        evaluation = generation.evaluation
+        violation, objective = evaluation.total_violation, evaluation.objectives
+        order = np.lexsort((objective, violation))
+        self.candidates += [
+            (float(violation[i]), float(objective[i]), generation.designs[i]) for i in order[:5]
+        ]
+        self._offer(self.candidates[-len(order[:5])])
+        feasible = evaluation.feasible
+        self._append(
+            GenerationRecord(
+                generation=generation.number,
+                evaluations=self.evaluations,
+                best=self.best_objective if self.best_feasible else np.inf,
+                mean=float(objective[feasible].mean()) if feasible.any() else np.nan,
+                feasible_fraction=float(feasible.mean()),
+            )
+        )
+
+    def refine_best(self, count: int) -> None:
+        before = self.evaluations
+        for design in self._distant_candidates(count):
+            outcome = refine(
+                self._score,
+                design,
+                upper=self.space.upper,
+                free=2 * self.space.satellites,
+            )
+            evaluation = self.evaluate(outcome.design[None])
+            self._offer(
+                (
+                    float(evaluation.total_violation[0]),
+                    float(evaluation.objectives[0]),
+                    outcome.design,
+                )
+            )
+        if self.evaluations > before and self.history:
+            last = self.history[-1]
+            self._append(
+                last._replace(
+                    generation=last.generation + 1,
+                    evaluations=self.evaluations,
+                    best=self.best_objective if self.best_feasible else np.inf,
+                )
+            )
+
+    def result(self, genetic_objective: float, *, interrupted: bool) -> SearchResult:
+        if self._best is None:  # interrupted before the first generation
+            raise KeyboardInterrupt
+        _, objective, design = self._best
+        return SearchResult(
+            design=design,
+            objective=objective,
+            feasible=self.best_feasible,
+            genetic_objective=genetic_objective,
+            evaluations=self.evaluations,
+            history=tuple(self.history),
+            interrupted=interrupted,
+        )
+
+    def _score(self, designs: Array) -> tuple[Array, Array]:
+        self.evaluations += len(designs)
+        objectives, margins = self.problem.objectives_and_margins(self.space.states(designs))
+        return objectives, np.concatenate([np.empty((len(designs), 0)), *margins], axis=-1)
+
+    def _offer(self, candidate: tuple[float, float, Array]) -> None:
+        if self._best is None or candidate[:2] < self._best[:2]:
+            self._best = candidate
+
+    def _append(self, record: GenerationRecord) -> None:
+        self.history.append(record)
+        if self.on_generation is not None:
+            self.on_generation(record)
+
+    def _distant_candidates(self, count: int) -> list[Array]:
+        """The best designs seen, each at least 5 % of the box away from the better ones."""
+        chosen: list[Array] = []
+        for _, _, design in sorted(self.candidates, key=lambda c: c[:2]):
+            if len(chosen) == count:
+                break
+            scaled = design / self.space.upper
+            if all(np.max(np.abs(scaled - other / self.space.upper)) > 0.05 for other in chosen):
+                chosen.append(design)
+        return chosen
