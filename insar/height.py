@@ -15,6 +15,12 @@ from .scene import Scene
 
 Array = NDArray[np.float64]
 
+_NO_WAVENUMBER = 1e-15
+"""Vertical wavenumber that counts as none [rad/m]: a picometre of baseline at 500 km."""
+
+_NO_INFORMATION = 1e-60
+"""Height information that counts as none [1/m²], far from overflow when inverted and squared."""
+
 
 class HeightStatus(IntEnum):
     """Why a height error is finite, or why it is not."""
@@ -143,11 +149,10 @@ def height_error_of(
         shared = dict(zip(sources, np.split(amplitude, splits, axis=-1), strict=True))
     fisher = np.maximum(np.sum(weighted * residual, axis=-1), 0.0)
 
-    # Rounding leaves J of the order of 1e-16 kzᵀXkz where it is zero.
     status = np.where(
-        ~np.any(kz != 0.0, axis=-1),
+        np.max(np.abs(kz), axis=-1) < _NO_WAVENUMBER,
         HeightStatus.NO_BASELINE,
-        np.where(fisher <= 0.0, HeightStatus.NO_COHERENCE, HeightStatus.MEASURED),
+        np.where(fisher < _NO_INFORMATION, HeightStatus.NO_COHERENCE, HeightStatus.MEASURED),
     ).astype(np.int8)
     measured = status == HeightStatus.MEASURED
     inverse = 1.0 / np.where(measured, fisher, 1.0)
