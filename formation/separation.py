@@ -97,7 +97,7 @@ def _offset_minimum(
 ) -> Array:
     """Minimum over τ of |c|² + mean + Re(first·z + second·z²), z = exp(iτ)."""
     # Stationary points solve 2b z⁴ + a z³ − ā z − 2b̄ = 0. A vanishing b leaves the first harmonic
-    # alone, whose minimum is added as a candidate together with those of the second harmonic.
+    # alone, whose minimum is added as a candidate.
     scale = np.maximum(np.abs(first) + np.abs(second), 1e-200)
     lead = np.where(np.abs(second) > 1e-14 * scale, second, 1e-14 * scale)
     companion = np.zeros((*first.shape, 4, 4), dtype=np.complex128)
@@ -109,8 +109,6 @@ def _offset_minimum(
         [
             np.angle(np.linalg.eigvals(companion)),
             (np.pi - np.angle(first))[..., None],
-            (0.5 * (np.pi - np.angle(second)))[..., None],
-            (0.5 * (3.0 * np.pi - np.angle(second)))[..., None],
         ],
         axis=-1,
     )

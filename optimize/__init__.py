@@ -3,6 +3,7 @@
 from .assessment import Assessment, ImagePair, Rung, Unwrapping, assess
 from .constraints import Bound, ConstraintReport, Constraints, Limit
 from .design_space import DesignSpace, DesignVariables
+from .findings import findings
 from .genetic import GeneticSettings
 from .problem import Evaluation, Problem
 from .result import EvaluateResult, OptimizeResult
@@ -28,5 +29,6 @@ __all__ = [
     "SearchSettings",
     "Unwrapping",
     "assess",
+    "findings",
     "search",
 ]

@@ -183,6 +183,17 @@ def test_closest_approach_of_a_leader_and_follower():
     assert min_separation(states, mean_motion=1e-3) == pytest.approx(250.0)
 
 
+@pytest.mark.parametrize("offset", [100.0, 600.0, 1500.0, -1500.0])
+def test_closest_approach_to_a_circle_around_another_point(offset):
+    """A circle of radius ρ in a plane that holds T, seen from a satellite ahead: ||T| − ρ|."""
+    n = 1e-3
+    states = np.stack([np.zeros(6), space_circular(250.0, 0.1, mean_motion=n)])
+    states[0, 1] = offset
+    radius = orbit_radius(250.0, 0.1, mean_motion=n)
+    closest = min_separation(states, mean_motion=n)
+    assert closest == pytest.approx(abs(abs(offset) - radius), abs=1e-6)
+
+
 def test_closest_approach_needs_a_drift_free_pair():
     states = np.zeros((2, 6))
     states[1, 0] = 10.0

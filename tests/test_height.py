@@ -29,6 +29,7 @@ from insar import (
     height_of_ambiguity,
     monostatic,
     one_transmitter,
+    pair_coherence,
     pair_geometry,
     phase_model,
     ping_pong,
@@ -158,6 +159,26 @@ def test_one_millimetre_of_baseline_is_over_a_metre_of_height():
     assert_allclose(error.total, 1.13, atol=5e-3)
 
 
+@pytest.mark.parametrize("images", [one_transmitter(2), monostatic(2)])
+def test_coherence_and_looks_of_a_pair_along_its_baseline(images):
+    """Half the critical baseline halves the looks (filtered) or the coherence (unfiltered)."""
+    radar = radar_for(images)
+    critical = scene_critical_baseline(SCENE, radar, multiplicity=radar.multiplicity)
+    share = np.array([0.0, 0.5, 1.0, 1.5])[:, None]
+    baseline = (share * critical)[..., None]
+    base = 1 / 1.1
+    for model, coherence, looks in [
+        ("filtered", [base, base, 0, 0], [4, 2, 0, 0]),
+        ("unfiltered", [base, base / 2, 0, 0], [4, 4, 4, 4]),
+        ("none", [base, base, base, base], [4, 4, 4, 4]),
+    ]:
+        result = pair_coherence(
+            baseline, SCENE, radar=radar, baseline_decorrelation=BaselineDecorrelation(model)
+        )
+        assert_allclose(result[0][:, 0, 0], coherence, atol=1e-12)
+        assert_allclose(result[1][:, 0, 0], looks, atol=1e-12)
+
+
 # -- closed forms --------------------------------------------------------------------------------
 
 
@@ -174,6 +195,12 @@ def test_two_images_give_the_textbook_error():
     late = dataclasses.replace(plain, synchronization=ErrorSource(0.1, SharedBy.IMAGE))
     terms = height_error(positions, SCENE, radar=radar, errors=late).terms
     assert_allclose(terms["synchronization"], ambiguity * 0.1 / (2 * np.pi))
+    # A monostatic image needs no link, two bistatic ones have two.
+    alone = height_error(positions, SCENE, radar=radar_for(monostatic(2)), errors=late).terms
+    assert_allclose(alone["synchronization"], 0.0)
+    third = np.concatenate([positions, np.full((len(SCENE), 1, 3), 50.0)], axis=1)
+    double = height_error(third, SCENE, radar=radar_for(((2, 0), (2, 1))), errors=late).terms
+    assert_allclose(double["synchronization"], ambiguity * 0.1 * np.sqrt(2) / (2 * np.pi))
 
 
 def test_monostatic_images_halve_the_phase_error_and_keep_the_position_error():

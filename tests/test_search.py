@@ -28,12 +28,14 @@ from insar import (
 from optimize import (
     Constraints,
     DesignSpace,
+    Evaluation,
     GeneticSettings,
     Problem,
     SearchSettings,
     assess,
     search,
 )
+from optimize.genetic import generations
 
 PUBLISHED = tomllib.loads(
     (Path(__file__).parent / "published" / "error_model.toml").read_text(encoding="utf-8")
@@ -245,6 +247,27 @@ def test_each_generation_is_scored_in_one_call(realistic, monkeypatch):
     settings = SearchSettings(GeneticSettings(population=20, generations=5), refinements=0)
     search(problem, space, settings=settings, rng=np.random.default_rng(1))
     assert sizes == [20] * 6
+
+
+def test_feasible_designs_come_first():
+    """Deb's rules: feasible before infeasible, then by error; infeasible ones by violation."""
+    target = np.array([3.0, 0.0])  # the unconstrained optimum lies where designs are infeasible
+
+    def evaluate(designs):
+        violation = np.maximum(designs[:, 0] - 1.0, 0.0)[:, None]
+        return Evaluation(1.0 + np.sum((designs - target) ** 2, axis=-1), violation)
+
+    settings = GeneticSettings(population=30, generations=60)
+    upper = np.array([5.0, 5.0])
+    *_, last = generations(
+        evaluate, lower=-upper, upper=upper, settings=settings, rng=np.random.default_rng(1)
+    )
+    assert last.evaluation.feasible.mean() > 0.3
+    best = last.designs[last.evaluation.feasible]
+    errors = last.evaluation.objectives[last.evaluation.feasible]
+    # Constrained optimum at (1, 0), value 5; 1 % after 60 generations.
+    assert errors.min() == pytest.approx(5.0, rel=0.01)
+    assert best[errors.argmin()] == pytest.approx([1.0, 0.0], abs=0.15)
 
 
 @given(seed=st.integers(0, 10**6))

@@ -1,0 +1,92 @@
+"""What a reader must know before using a result: the warnings of a report."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from insar import BaselineDecorrelation, HeightStatus, HeldConstant, Weighting
+
+from .assessment import Assessment
+from .problem import Problem
+
+_DOUBTFUL_UNWRAPPING = 0.99
+"""Below this probability in a segment, a reader is warned where no limit says so."""
+
+
+def findings(problem: Problem, assessment: Assessment) -> tuple[str, ...]:
+    """Warnings on a formation and on the model that assessed it.
+
+    Parameters
+    ----------
+    problem : scene, radar, errors and limits.
+    assessment : the formation.
+
+    Returns
+    -------
+    Sentences for an InSAR engineer; none if there is nothing to warn of.
+    """
+    return (*_of_the_formation(problem, assessment), *_of_the_model(problem))
+
+
+def _of_the_formation(problem: Problem, assessment: Assessment) -> list[str]:
+    notes = []
+    error = assessment.height_error
+    for status in (HeightStatus.NO_BASELINE, HeightStatus.NO_COHERENCE):
+        count = int(np.sum(error.status == status))
+        if count:
+            notes.append(
+                f"No height is measured in {count} of {len(problem.scene)} segments: "
+                f"{status.reason}."
+            )
+    unwrapping = assessment.unwrapping
+    if unwrapping is None:
+        notes.append(
+            "No prior height is given, so it was not checked whether the phase can be unwrapped: "
+            "the height error holds only where it is."
+        )
+    else:
+        worst = float(unwrapping.probability[unwrapping.worst_segment])
+        limit = problem.constraints.min_unwrapping_probability
+        if limit is None and worst < _DOUBTFUL_UNWRAPPING:
+            notes.append(
+                f"The phase is unwrapped rightly with a probability of only {worst:.3f} in "
+                f"segment {unwrapping.worst_segment + 1}: there the height error means little."
+            )
+        if error.region >= unwrapping.prior_height_std:
+            notes.append(
+                f"The height error is not below the prior's {unwrapping.prior_height_std:g} m: the "
+                "formation measures nothing that is not known already."
+            )
+    dark = [pair for pair in assessment.pairs if np.any(pair.coherence == 0.0)]
+    if dark:
+        notes.append(
+            f"{len(dark)} of {len(assessment.pairs)} pairs reach their critical baseline: they "
+            "have no coherence and carry no information of their own."
+        )
+    return notes
+
+
+def _of_the_model(problem: Problem) -> list[str]:
+    notes = []
+    errors = problem.errors
+    if errors.weighting is Weighting.PAIRS and len(problem.radar.images) > 2:
+        notes.append(
+            "The weighting 'pairs' counts N images as N(N-1)/2 independent measurements: the "
+            "height error is smaller than is possible. The weighting 'joint' is honest."
+        )
+    if errors.baseline_decorrelation is BaselineDecorrelation.NONE:
+        notes.append(
+            "Decorrelation by the perpendicular baseline is neglected: long baselines look better "
+            "than they are."
+        )
+    if errors.held_constant is HeldConstant.AZIMUTH:
+        notes.append(
+            "Height sensitivity is taken at constant azimuth angle (Li 2009), not at constant "
+            "range and Doppler as a SAR image has it; away from broadside they differ."
+        )
+    notes.append(
+        "The separations hold for unperturbed linear motion. Both circular families are passively "
+        "unsafe: their radial-normal separation passes through zero, and J2 shifts the along-track "
+        "phases that keep the satellites apart."
+    )
+    return notes
