@@ -1,0 +1,220 @@
+"""Builds what is computed with from what a study says."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import NamedTuple, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from formation import (
+    CircularFamily,
+    Orbit,
+    equally_spaced,
+    ground_track_circular,
+    space_circular,
+)
+from optimize import DesignSpace, GeneticSettings, Problem, SearchSettings
+
+from .domain import build_problem
+from .formations import ComparedFormation, Family, RadialStart, Satellite, Sign
+from .limits import SearchBlock
+from .studies import EvaluateStudy, OptimizeStudy
+
+Array = NDArray[np.float64]
+
+FAMILIES: dict[Family, CircularFamily] = {
+    "ground_track_circular": ground_track_circular,
+    "space_circular": space_circular,
+}
+_Member = TypeVar("_Member", RadialStart, Satellite)
+_SIGNS = {"positive": (1,), "negative": (-1,), "either": (1, -1)}
+
+
+class NamedStates(NamedTuple):
+    """A formation with what a report calls it.
+
+    Attributes
+    ----------
+    label : what it is called.
+    names : name of each satellite.
+    states : (N, 6) — RTN states at t = 0 [m, m/s].
+    """
+
+    label: str
+    names: tuple[str, ...]
+    states: Array
+
+
+class OptimizeSetup(NamedTuple):
+    """Everything that a study of kind `optimize` computes with.
+
+    Attributes
+    ----------
+    problem : what is minimized, and within which limits.
+    space : the designs that are searched.
+    settings : of the search.
+    initial_states : (N, 6) — the formation given, or satellites equally spaced on the largest
+        allowed orbit.
+    initial_design : (D,) — the formation given, if it lies in the searched box; else None.
+    compare : formations to show beside the result.
+    critical_baseline : the smallest over the segments [m].
+    orbit : the reference orbit.
+    """
+
+    problem: Problem
+    space: DesignSpace
+    settings: SearchSettings
+    initial_states: Array
+    initial_design: Array | None
+    compare: tuple[NamedStates, ...]
+    critical_baseline: float
+    orbit: Orbit
+
+
+class EvaluateSetup(NamedTuple):
+    """Everything that a study of kind `evaluate` computes with.
+
+    Attributes
+    ----------
+    problem : scene, radar, errors and limits.
+    names : name of each satellite.
+    states : (N, 6) — the formation, RTN at t = 0 [m, m/s].
+    compare : formations to show beside it.
+    critical_baseline : the smallest over the segments [m].
+    orbit : the reference orbit.
+    """
+
+    problem: Problem
+    names: tuple[str, ...]
+    states: Array
+    compare: tuple[NamedStates, ...]
+    critical_baseline: float
+    orbit: Orbit
+
+
+def build_optimize(study: OptimizeStudy) -> OptimizeSetup:
+    """Build what a study of kind `optimize` computes with.
+
+    Parameters
+    ----------
+    study : the study.
+    """
+    names, formation = study.formation.names, study.formation
+    problem, critical = build_problem(study, names, study.constraints)
+    constraints, n = problem.constraints, problem.mean_motion
+    amplitude = math.inf if constraints.max_radius is None else constraints.max_radius / 2.0
+    offset, rate = constraints.max_offset, constraints.max_rate
+    space = DesignSpace(
+        names=names,
+        family=FAMILIES[formation.family],
+        mean_motion=n,
+        max_offset=amplitude if offset is None else offset,
+        max_rate=amplitude * n if rate is None else rate,
+        signs=_SIGNS[formation.cross_track_sign],
+    )
+    largest = 2.0 * min(amplitude, space.max_offset, space.max_rate / n)
+    design = None
+    if formation.initial is None:
+        z0, zdot0 = equally_spaced(len(names), radius=largest, mean_motion=n)
+        initial = space.encode(z0, zdot0)
+    else:
+        members = _in_order(formation.initial, names)
+        initial = space.encode([m.z0_m for m in members], [m.zdot0_m_s for m in members])
+        design = initial if bool(np.all(np.abs(initial) <= space.upper)) else None
+    sign: Sign = "negative" if formation.cross_track_sign == "negative" else "positive"
+    return OptimizeSetup(
+        problem=problem,
+        space=space,
+        settings=_settings(study.search),
+        initial_states=space.states(initial),
+        initial_design=design,
+        compare=_compare(study.compare, names, n, family=formation.family, sign=sign),
+        critical_baseline=critical,
+        orbit=study.reference_orbit,
+    )
+
+
+def build_evaluate(study: EvaluateStudy) -> EvaluateSetup:
+    """Build what a study of kind `evaluate` computes with.
+
+    Parameters
+    ----------
+    study : the study.
+    """
+    names, formation = study.formation.names, study.formation
+    problem, critical = build_problem(study, names, study.constraints)
+    n, family, sign = problem.mean_motion, formation.family, formation.cross_track_sign
+    return EvaluateSetup(
+        problem=problem,
+        names=names,
+        states=_states(formation.satellites, names, n, family=family, sign=sign),
+        compare=_compare(study.compare, names, n, family=family, sign=sign),
+        critical_baseline=critical,
+        orbit=study.reference_orbit,
+    )
+
+
+def _compare(
+    formations: Sequence[ComparedFormation],
+    names: tuple[str, ...],
+    mean_motion: float,
+    *,
+    family: Family,
+    sign: Sign,
+) -> tuple[NamedStates, ...]:
+    """Formations to compare with; family and sign are the study's, for those that give none."""
+    return tuple(
+        NamedStates(
+            formation.label,
+            names,
+            _states(
+                formation.satellites,
+                names,
+                mean_motion,
+                family=formation.family or family,
+                sign=formation.cross_track_sign or sign,
+            ),
+        )
+        for formation in formations
+    )
+
+
+def _states(
+    satellites: Sequence[Satellite],
+    names: Sequence[str],
+    mean_motion: float,
+    *,
+    family: Family,
+    sign: Sign,
+) -> Array:
+    generate, (k, *_) = FAMILIES[family], _SIGNS[sign]
+    rows = [
+        generate(*satellite.radial_start, mean_motion=mean_motion, sign=k)
+        if satellite.state is None
+        else np.array(satellite.state)
+        for satellite in _in_order(satellites, names)
+    ]
+    return np.array(rows)
+
+
+def _in_order(members: Sequence[_Member], names: Sequence[str]) -> list[_Member]:
+    """The members in the order of the study's satellites; unnamed ones are in it already."""
+    by_name = {member.name: member for member in members}
+    return list(members) if None in by_name else [by_name[name] for name in names]
+
+
+def _settings(block: SearchBlock) -> SearchSettings:
+    genetic = GeneticSettings(
+        population=block.population,
+        generations=block.generations,
+        crossover_probability=block.crossover_probability,
+        mutation_probability=block.mutation_probability,
+        crossover_eta=block.crossover_eta,
+        mutation_eta=block.mutation_eta,
+        tournament=block.tournament,
+        elite=block.elite,
+    )
+    return SearchSettings(genetic=genetic, refinements=block.refinements)

@@ -1,0 +1,127 @@
+"""Checks across the blocks of a study; each raises the error of `base.wrong`."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from formation import Orbit, drift_per_orbit, satellite_pairs
+from formation.constants import EARTH_EQUATORIAL_RADIUS
+from formation.separation import NEGLIGIBLE_DRIFT
+
+from .base import wrong
+from .blocks import RadarBlock
+from .formations import ComparedFormation, RadialStart, Satellite
+from .messages import KeyPath, did_you_mean, show
+from .scenes import StripBlock, check_slope
+
+_GRAZING = math.radians(89.0)
+
+
+def check_strip(strip: StripBlock, orbit: Orbit) -> None:
+    """The strip is seen on the Earth, out of layover and shadow."""
+    at: KeyPath = ("scene", "strip")
+    ratio = orbit.semi_major_axis / EARTH_EQUATORIAL_RADIUS
+    sine = ratio * math.sin(math.radians(strip.look_deg))
+    if sine > math.sin(_GRAZING):
+        limit = math.degrees(math.asin(math.sin(_GRAZING) / ratio))
+        raise wrong(
+            (*at, "look_deg"),
+            f"misses the Earth or grazes it: from {orbit.altitude / 1e3:g} km it must be at most "
+            f"{limit:.2f}",
+            "choose a smaller look angle",
+        )
+    check_slope(strip.slope_deg, (math.degrees(math.asin(sine)),), at)
+
+
+def check_names(names: Sequence[str]) -> None:
+    """No two satellites have one name."""
+    for index, name in enumerate(names):
+        if name in names[:index]:
+            raise wrong(
+                ("formation", "satellites", index),
+                "is the name of two satellites",
+                "give every satellite a name of its own",
+            )
+
+
+def check_images(radar: RadarBlock, names: Sequence[str]) -> None:
+    """The images use every satellite of the study and no other."""
+    if radar.transmitter is not None:
+        check_known(radar.transmitter, names, ("radar", "transmitter"))
+    if not isinstance(radar.images, tuple):
+        return
+    for position, image in enumerate(radar.images):
+        for end, name in enumerate(image):
+            check_known(name, names, ("radar", "images", position, end))
+    idle = [name for name in names if not any(name in image for image in radar.images)]
+    if idle:
+        raise wrong(
+            ("radar", "images"),
+            f"leaves out the satellite {show(idle[0])}",
+            "add an image that it transmits or receives, or remove the satellite",
+        )
+
+
+def check_known(name: str, names: Sequence[str], at: KeyPath) -> None:
+    """A name is that of a satellite."""
+    if name not in names:
+        raise wrong(
+            at,
+            "is no satellite of this study",
+            f"{did_you_mean(name, names)}the satellites are {', '.join(names)}",
+        )
+
+
+def check_members(
+    members: Sequence[RadialStart | Satellite], names: Sequence[str], at: KeyPath
+) -> None:
+    """The members of a formation are the satellites of the study, named or in its order."""
+    if len(members) != len(names):
+        raise wrong(
+            at,
+            f"lists {len(members)} and the study has {len(names)} satellites",
+            f"list {', '.join(names)}",
+        )
+    given = [member.name for member in members if member.name is not None]
+    if given and len(given) < len(members):
+        raise wrong(at, "names some of the satellites", "name all of them or none")
+    for index, name in enumerate(given):
+        check_known(name, names, (*at, index, "name"))
+        if name in given[:index]:
+            raise wrong((*at, index, "name"), "is listed twice", "list each satellite once")
+
+
+def check_drift(satellites: Sequence[Satellite], orbit: Orbit, at: KeyPath) -> None:
+    """No two satellites drift apart along track."""
+    # A satellite of a family is drift-free, as the zero state is.
+    states = np.zeros((len(satellites), 6))
+    for row, satellite in zip(states, satellites, strict=True):
+        if satellite.state is not None:
+            row[:] = satellite.state
+    drift = drift_per_orbit(states, mean_motion=orbit.mean_motion)
+    pairs = satellite_pairs(len(satellites))
+    relative = np.abs(drift[pairs[:, 1]] - drift[pairs[:, 0]])
+    worst = int(np.argmax(relative))
+    if relative[worst] <= NEGLIGIBLE_DRIFT:
+        return
+    one, two = (int(index) for index in pairs[worst])
+    # Of the two, blame the one that drifts more against the reference orbit.
+    blamed, other = (one, two) if abs(drift[one]) > abs(drift[two]) else (two, one)
+    drift_free = -2.0 * orbit.mean_motion * states[blamed, 0]
+    raise wrong(
+        (*at, blamed, "velocity_rtn_m_s"),
+        f"drifts {relative[worst]:.3g} m per orbit along track against satellite {other + 1}, and "
+        f"{NEGLIGIBLE_DRIFT:g} m is the limit",
+        f"the T component of a drift-free velocity is -2 n R, here {drift_free:.6f}",
+    )
+
+
+def check_labels(compared: Sequence[ComparedFormation]) -> None:
+    """No two compared formations have one label."""
+    labels = [formation.label for formation in compared]
+    for index, label in enumerate(labels):
+        if label in labels[:index]:
+            raise wrong(("compare", index, "label"), "is used twice", "choose another label")

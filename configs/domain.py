@@ -1,0 +1,167 @@
+"""Builds radar, scene, errors and limits from a study: km, degrees and dB end here."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from formation import Orbit
+from formation.constants import EARTH_EQUATORIAL_RADIUS
+from insar import (
+    BaselineDecorrelation,
+    ErrorBudget,
+    ErrorSource,
+    HeldConstant,
+    LookSide,
+    Radar,
+    Scale,
+    Scene,
+    SharedBy,
+    Weighting,
+    monostatic,
+    one_transmitter,
+    ping_pong,
+    scene_critical_baseline,
+)
+from optimize import Constraints, Problem
+
+from .blocks import ErrorsBlock, RadarBlock
+from .limits import LimitsBlock
+from .scenes import SceneBlock, TableBlock
+from .studies import FormationStudy
+
+
+def build_problem(
+    study: FormationStudy, names: Sequence[str], limits: LimitsBlock
+) -> tuple[Problem, float]:
+    """Build what formations are scored by.
+
+    Parameters
+    ----------
+    study : the study.
+    names : name of each satellite.
+    limits : its limits.
+
+    Returns
+    -------
+    problem : in SI units and radians.
+    critical_baseline : the smallest over the segments, for the radar's multiplicity [m].
+    """
+    orbit = study.reference_orbit
+    radar = _radar(study.radar, names)
+    scene = _scene(study.scene, orbit)
+    critical = float(scene_critical_baseline(scene, radar, multiplicity=radar.multiplicity).min())
+    problem = Problem(
+        mean_motion=orbit.mean_motion,
+        scene=scene,
+        radar=radar,
+        errors=_errors(study.errors, radar, float(scene.slant_range.mean())),
+        constraints=_constraints(limits, critical),
+    )
+    return problem, critical
+
+
+def _radar(block: RadarBlock, names: Sequence[str]) -> Radar:
+    if isinstance(block.images, tuple):
+        images = tuple((names.index(tx), names.index(rx)) for tx, rx in block.images)
+    elif block.images == "one_transmitter":
+        transmitter = 0 if block.transmitter is None else names.index(block.transmitter)
+        images = one_transmitter(len(names), transmitter=transmitter)
+    else:
+        images = {"monostatic": monostatic, "ping_pong": ping_pong}[block.images](len(names))
+    return Radar(
+        wavelength=block.wavelength_m,
+        slant_range_resolution=block.slant_range_resolution_m,
+        snr=10.0 ** (block.signal_to_noise_db / 10.0),
+        looks=block.looks,
+        images=images,
+        other_coherence=block.other_coherence,
+    )
+
+
+def _scene(block: SceneBlock, orbit: Orbit) -> Scene:
+    given = block.given
+    if isinstance(given, TableBlock):
+        return _table(given)
+    middle = (np.arange(given.segments) + 0.5) / given.segments
+    return Scene.broadside_strip(
+        times=given.start_s + given.duration_s * middle,
+        look_angle=math.radians(given.look_deg),
+        altitude=orbit.altitude,
+        earth_radius=EARTH_EQUATORIAL_RADIUS,
+        side={"left": LookSide.LEFT, "right": LookSide.RIGHT}[given.side],
+        slope=math.radians(given.slope_deg),
+    )
+
+
+def _table(table: TableBlock) -> Scene:
+    incidence = table.look_deg if table.incidence_deg is None else table.incidence_deg
+    return Scene(
+        times=np.array(table.times_s),
+        slant_range=1e3 * np.array(table.slant_range_km),
+        look_angle=np.radians(table.look_deg),
+        azimuth=np.radians(table.azimuth_deg),
+        incidence=np.radians(incidence),
+        slope=np.radians(table.slope_deg),
+    )
+
+
+def _errors(block: ErrorsBlock, radar: Radar, mean_slant_range: float) -> ErrorBudget:
+    base = ErrorBudget.li2009(snr=radar.snr) if block.preset == "li2009" else ErrorBudget()
+    azimuth = None if block.azimuth_deg is None else math.radians(block.azimuth_deg)
+    if block.azimuth_on_ground_m is not None:
+        azimuth = block.azimuth_on_ground_m / mean_slant_range
+    synchronization = (
+        None if block.synchronization_deg is None else math.radians(block.synchronization_deg)
+    )
+    held, lost, weighting = block.held_constant, block.baseline_decorrelation, block.weighting
+    phase_std = block.phase_std_deg
+    return replace(
+        base,
+        position=_source(
+            base.position, block.position_m, block.position_shared_by, block.position_scale
+        ),
+        azimuth=_source(base.azimuth, azimuth, block.azimuth_shared_by, block.azimuth_scale),
+        range=_source(base.range, block.range_m, None, block.range_scale),
+        synchronization=_source(
+            base.synchronization,
+            synchronization,
+            block.synchronization_shared_by,
+            block.synchronization_scale,
+        ),
+        weighting=base.weighting if weighting is None else Weighting(weighting),
+        baseline_decorrelation=(
+            base.baseline_decorrelation if lost is None else BaselineDecorrelation(lost)
+        ),
+        held_constant=base.held_constant if held is None else HeldConstant(held),
+        phase_std=base.phase_std if phase_std is None else math.radians(phase_std),
+    )
+
+
+def _source(
+    base: ErrorSource, std: float | None, shared_by: str | None, scale: str | None
+) -> ErrorSource:
+    return ErrorSource(
+        std=base.std if std is None else std,
+        shared_by=base.shared_by if shared_by is None else SharedBy(shared_by),
+        scale=base.scale if scale is None else Scale(scale),
+    )
+
+
+def _constraints(block: LimitsBlock, critical_baseline: float) -> Constraints:
+    radii = [] if block.max_radius_m is None else [block.max_radius_m]
+    if block.max_radius_over_critical_baseline is not None:
+        radii.append(block.max_radius_over_critical_baseline * critical_baseline)
+    unwrapping = block.unwrapping
+    return Constraints(
+        max_radius=min(radii, default=None),
+        min_separation=block.min_separation_m,
+        min_unwrapping_probability=None if unwrapping is None else unwrapping.min_probability,
+        prior_height_std=None if unwrapping is None else unwrapping.prior_height_std_m,
+        max_baseline_fraction=block.max_baseline_over_critical_baseline,
+        max_offset=block.max_z0_m,
+        max_rate=block.max_zdot0_m_s,
+    )

@@ -1,0 +1,180 @@
+"""Turns what pydantic finds wrong with a study into messages for its author."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from pydantic import ValidationError
+
+from .base import CROSS_CHECK, Block
+from .messages import (
+    Finding,
+    KeyPath,
+    Mark,
+    StudyError,
+    closest,
+    did_you_mean,
+    show,
+    show_path,
+    study_error,
+)
+from .reader import Document
+from .remedies import remedy
+from .schema import Schema, block_at, describe, resolve, schema_at
+
+MAX_FINDINGS = 5
+"""Findings that one message lists; the others are counted."""
+
+_SHORT = 45
+"""Longest list that is shown with its key."""
+
+
+def explain(
+    error: ValidationError, document: Document, model: type[Block], *, file: str
+) -> StudyError:
+    """One message for a failed validation, each finding with its place in the file.
+
+    Parameters
+    ----------
+    error : from the validation of ``document.data`` by ``model``.
+    document : the data and the places of its values.
+    model : the kind of study.
+    file : its name.
+    """
+    schema = model.model_json_schema()
+    details = {}
+    for detail in error.errors(include_url=False):
+        path, kind = _real_path(detail["loc"], document.data, detail["type"]), detail["type"]
+        if kind == "missing" and isinstance(path[-1], int):  # a list that is too short
+            path, kind = path[:-1], "too_short"
+        details[path] = (kind, detail.get("ctx", {}))
+    # A list with a wrong entry is reported as too short as well.
+    parents = {path[:length] for path in details for length in range(len(path))}
+    mistakes = [
+        _Mistake(path, kind, context)
+        for path, (kind, context) in details.items()
+        if path not in parents
+    ]
+    # A misspelt key is one mistake, not an unknown key and a missing one.
+    unknown = [mistake.path for mistake in mistakes if mistake.kind == "extra_forbidden"]
+    meant = {
+        (*path[:-1], closest(str(path[-1]), block_at(schema, path[:-1])))
+        for path in unknown[:MAX_FINDINGS]
+    }
+    mistakes = [m for m in mistakes if m.kind != "missing" or m.path not in meant]
+    mistakes.sort(key=lambda mistake: mistake.place(document))
+    findings = [
+        Finding(mistake.text(document, schema), mistake.place(document))
+        for mistake in mistakes[:MAX_FINDINGS]
+    ]
+    return study_error(file, findings, more=len(mistakes) - len(findings))
+
+
+class _Mistake(NamedTuple):
+    """One thing that pydantic found."""
+
+    path: KeyPath
+    kind: str
+    context: dict[str, Any]
+
+    def place(self, document: Document) -> Mark:
+        if self.kind == "extra_forbidden":
+            return document.keys[self.path]
+        if self.kind == "missing":
+            return _place(self.path[:-1], document)
+        return _place((*self.path, *self.context.get("at", ())), document)
+
+    def text(self, document: Document, schema: Schema) -> str:
+        if self.kind == CROSS_CHECK:
+            named = _assignment((*self.path, *self.context["at"]), document.data)
+            return f"{named} {self.context['text']}; {self.context['remedy']}"
+        if self.kind == "extra_forbidden":
+            return _unknown_key(self.path, schema)
+        allowed = schema_at(schema, self.path)
+        if self.kind == "missing":
+            return _missing(self.path, allowed)
+        return _wrong_value(self.path, document.data, allowed)
+
+
+def _real_path(location: KeyPath, data: Any, kind: str) -> KeyPath:
+    """The location without the names of alternatives that pydantic adds to it."""
+    path: list[str | int] = []
+    for position, part in enumerate(location):
+        last = position == len(location) - 1
+        if _holds(data, part):
+            data = data[part]
+        elif not (last and kind == "missing"):
+            continue
+        path.append(part)
+    return tuple(path)
+
+
+def _holds(data: Any, part: str | int) -> bool:
+    if isinstance(data, list):
+        return isinstance(part, int) and part < len(data)
+    return isinstance(data, dict) and part in data
+
+
+def _value(path: KeyPath, data: Any) -> Any:
+    for part in path:
+        if not _holds(data, part):
+            return None  # a value that is not in the file but comes by default
+        data = data[part]
+    return data
+
+
+def _place(path: KeyPath, document: Document) -> Mark:
+    """Where a value stands; a block and an empty value are better found by their key."""
+    while path not in document.marks:
+        path = path[:-1]
+    value = _value(path, document.data)
+    by_key = value is None or isinstance(value, dict)
+    return document.keys.get(path, document.marks[path]) if by_key else document.marks[path]
+
+
+def _assignment(path: KeyPath, data: Any) -> str:
+    """``key = value``; long lists and blocks are only named."""
+    if not path:
+        return "the study"
+    value = _value(path, data)
+    if isinstance(value, dict) or (isinstance(value, list) and len(show(value)) > _SHORT):
+        return show_path(path)
+    return f"{show_path(path)} = {show(value)}"
+
+
+def _unknown_key(path: KeyPath, schema: Schema) -> str:
+    key, parent = str(path[-1]), path[:-1]
+    known = list(block_at(schema, parent))
+    where = show_path(parent) if parent else "the study"
+    home = _home(key, schema)
+    hint = f"it belongs under {home!r}; " if home else did_you_mean(key, known)
+    return f"{show_path(path)} is not a known key; {hint}the keys of {where} are {', '.join(known)}"
+
+
+def _home(key: str, schema: Schema) -> str | None:
+    """The block of a study, or the block in one, that has a key."""
+    for outer in block_at(schema, ()):
+        if key in block_at(schema, (outer,)):
+            return outer
+        for inner in block_at(schema, (outer,)):
+            if key in block_at(schema, (outer, inner)):
+                return f"{outer}.{inner}"
+    return None
+
+
+def _missing(path: KeyPath, schema: Schema) -> str:
+    about = schema.get("description", "").rstrip(".")
+    if resolve(schema).get("type") == "object":
+        return (
+            f"{show_path(path)} is missing ({about}); add this block as in the example that "
+            "formation-opt --new three_sat prints"
+        )
+    return f"{show_path(path)} is missing; add {describe(schema, str(path[-1]))} ({about})"
+
+
+def _wrong_value(path: KeyPath, data: Any, schema: Schema) -> str:
+    value = _value(path, data)
+    key = next((part for part in reversed(path) if isinstance(part, str)), "")
+    return (
+        f"{_assignment(path, data)} must be {describe(schema, key)}; {remedy(value, key, schema)}"
+    )

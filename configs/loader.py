@@ -1,0 +1,102 @@
+"""Loads a study from a file; whatever is wrong with it is a `StudyError`."""
+
+from __future__ import annotations
+
+import hashlib
+import re
+from pathlib import Path
+from typing import NamedTuple
+
+from pydantic import ValidationError
+
+from .examples import example_names
+from .explain import explain
+from .messages import Finding, closest, did_you_mean, show, study_error
+from .reader import MAX_BYTES, read_document
+from .studies import DEFAULT_KIND, STUDIES, Study
+
+
+class LoadedStudy(NamedTuple):
+    """A study and what it was read from.
+
+    Attributes
+    ----------
+    study : the study, of the class of its kind.
+    source_text : the text of the file.
+    sha256 : hexadecimal digest of the file's bytes.
+    """
+
+    study: Study
+    source_text: str
+    sha256: str
+
+
+def load_study(source: Path) -> LoadedStudy:
+    """Read and check a study.
+
+    Parameters
+    ----------
+    source : the YAML file.
+
+    Returns
+    -------
+    LoadedStudy
+
+    Raises
+    ------
+    StudyError
+        If the file can't be read or says something that a study may not; one message with place,
+        key, value, limit and remedy.
+    """
+    content = _read(source)
+    file = str(source)
+    document = read_document(content, file=file)
+    data = document.data
+    if not isinstance(data, dict):
+        finding = Finding(
+            f"the study is {show(data)}, not a block of keys such as 'orbit:' and 'radar:'; start "
+            "from an example: formation-opt --new three_sat",
+            document.marks[()],
+        )
+        raise study_error(file, [finding])
+    kind = data.get("kind", DEFAULT_KIND)
+    if not isinstance(kind, str) or kind not in STUDIES:
+        finding = Finding(
+            f"kind = {show(kind)} must be one of {', '.join(STUDIES)}; "
+            f"{did_you_mean(str(kind), STUDIES).strip() or 'choose one'}",
+            document.marks[("kind",)],
+        )
+        raise study_error(file, [finding])
+    model = STUDIES[kind]
+    try:
+        study = model.model_validate({"name": _default_name(source), **data})
+    except ValidationError as error:
+        raise explain(error, document, model, file=file) from None
+    text = content.decode("utf-8-sig")
+    return LoadedStudy(study, text, hashlib.sha256(content).hexdigest())
+
+
+def _default_name(source: Path) -> str:
+    return re.sub(r"[^\w.-]+", "_", source.stem).strip("._-")[:64].strip("._-") or "study"
+
+
+def _read(source: Path) -> bytes:
+    file = str(source)
+    try:
+        with source.open("rb") as stream:
+            return stream.read(MAX_BYTES + 1)
+    except FileNotFoundError:
+        raise study_error(file, [Finding(_missing_file(source))]) from None
+    except IsADirectoryError:
+        raise study_error(file, [Finding("is a folder; name a YAML file in it")]) from None
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        finding = Finding(f"cannot be read ({reason}); check its name and its permissions")
+        raise study_error(file, [finding]) from None
+
+
+def _missing_file(source: Path) -> str:
+    near = closest(source.stem, example_names())
+    if near is None:
+        return f"does not exist; the shipped examples are {', '.join(example_names())}"
+    return f"does not exist; did you mean the shipped example? formation-opt {near}"
