@@ -1,0 +1,1 @@
+"""Figures as SVG, one module for each family of them."""

@@ -1,0 +1,74 @@
+"""Height error of each segment of the scene."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
+from numpy.typing import NDArray
+
+from insar import Scene
+
+from ..reading import Shown
+from .style import color, draw, error_axis, legend_rows, name_formations, series_marker
+
+Array = NDArray[np.float64]
+
+_SEGMENT = "segment"
+
+
+def scene_axis(scene: Scene) -> tuple[Array, str]:
+    """Abscissa of the segments and its label: time, or the number where time does not run."""
+    if len(scene) > 1 and bool(np.all(np.diff(scene.times) > 0.0)):
+        return scene.times, "time since the epoch of the states [s]"
+    return np.arange(1.0, len(scene) + 1.0), _SEGMENT
+
+
+def height_error_figure(formations: Sequence[Shown], scene: Scene) -> bytes:
+    """Total and relative error over the scene, with the RMS of each dashed.
+
+    Parameters
+    ----------
+    formations : those compared.
+    scene : the segments.
+    """
+
+    def paint(figure: Figure) -> None:
+        total, relative = figure.subplots(1, 2)
+        errors = [f.assessment.height_error for f in formations]
+        styles = [f.style for f in formations]
+        _paint_panel(total, scene, styles, [(e.total, e.region) for e in errors])
+        _paint_panel(relative, scene, styles, [(e.relative, e.relative_region) for e in errors])
+        total.set_title("(a) total", loc="left")
+        relative.set_title("(b) relative", loc="left")
+        name_formations(figure, formations)
+
+    return draw(paint, height=2.4 + 0.18 * legend_rows(formations))
+
+
+def _paint_panel(
+    axes: Axes, scene: Scene, styles: Sequence[int], series: Sequence[tuple[Array, Array]]
+) -> None:
+    abscissa, label = scene_axis(scene)
+    for style, (values, region) in zip(styles, series, strict=True):
+        shown = np.where(np.isfinite(values), values, np.nan)
+        if np.isfinite(region):
+            axes.axhline(float(region), color=color(style), linestyle=(0, (5, 3)), linewidth=0.8)
+        axes.plot(abscissa, shown, color=color(style), marker=series_marker(style, len(scene)))
+    mark_abscissa(axes, abscissa, label)
+    axes.set_ylabel("height error [m]")
+    error_axis(axes, [values for values, _ in series])
+
+
+def mark_abscissa(axes: Axes, abscissa: Array, label: str) -> None:
+    """Label the abscissa of `scene_axis`; segments are counted in whole numbers."""
+    axes.set_xlabel(label)
+    if label == _SEGMENT:
+        if abscissa.size < 12:
+            axes.set_xticks(abscissa)
+        else:
+            axes.xaxis.set_major_locator(MaxNLocator(integer=True))
+        axes.set_xlim(abscissa[0] - 0.5, abscissa[-1] + 0.5)

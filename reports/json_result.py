@@ -1,0 +1,207 @@
+"""The machine-readable result; `result.schema.json` beside this module describes it."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterable
+from importlib import resources
+from typing import Any
+
+import numpy as np
+
+from optimize import Assessment, EvaluateResult, ImagePair, OptimizeResult, Problem
+
+from .reading import image_name, pair_satellites, unmeasured_reason
+from .study import Provenance, StudyInfo
+
+SCHEMA_VERSION = 1
+
+Json = dict[str, Any]
+
+
+def result_schema() -> Json:
+    """JSON Schema (2020-12) of ``result.json``."""
+    text = resources.files(__package__).joinpath("result.schema.json").read_text("utf-8")
+    schema: Json = json.loads(text)
+    return schema
+
+
+def result_json(body: Json, *, study: StudyInfo, provenance: Provenance) -> bytes:
+    """Envelope around the results of a study.
+
+    Parameters
+    ----------
+    body : the part that depends on the kind of study, with its ``warnings``.
+    study : the study that was run.
+    provenance : how it was run.
+
+    Returns
+    -------
+    UTF-8 text that ends in a newline; but for ``provenance`` the same study and seed give the
+    same bytes.
+    """
+    document = {
+        "schema_version": SCHEMA_VERSION,
+        "study": {
+            "name": study.name,
+            "kind": study.kind,
+            "description": study.description,
+            "config_sha256": study.config_sha256,
+        },
+        "provenance": {
+            "version": provenance.version,
+            "seed": provenance.seed,
+            "python": provenance.python,
+            "platform": provenance.platform,
+            "packages": dict(provenance.packages),
+            "started": provenance.started,
+            "wall_s": provenance.wall_s,
+            "evaluations": provenance.evaluations,
+            "command": provenance.command,
+        },
+        **body,
+    }
+    text = json.dumps(document, ensure_ascii=False, indent=2, allow_nan=False)
+    return f"{text}\n".encode()
+
+
+def optimize_json(result: OptimizeResult) -> Json:
+    """Results of a study of kind ``optimize``."""
+    problem, search = result.problem, result.search
+    return {
+        "critical_baseline_m": finite(result.critical_baseline),
+        "mean_motion_rad_s": finite(problem.mean_motion),
+        "initial": assessment_json(problem, result.initial),
+        "best": assessment_json(problem, result.best),
+        "compare": [assessment_json(problem, one) for one in result.compare],
+        "search": {
+            "genetic_best_m": finite(search.genetic_objective),
+            "best_m": finite(search.objective),
+            "feasible": bool(search.feasible),
+            "interrupted": search.interrupted,
+        },
+        "history": [
+            {
+                "generation": record.generation,
+                "evaluations": record.evaluations,
+                "best_m": finite(record.best),
+                "mean_m": finite(record.mean),
+                "feasible_fraction": finite(record.feasible_fraction),
+            }
+            for record in search.history
+        ],
+        "certificate": None,
+        "warnings": list(result.warnings),
+    }
+
+
+def evaluate_json(result: EvaluateResult) -> Json:
+    """Results of a study of kind ``evaluate``."""
+    problem = result.problem
+    return {
+        "evaluate": {
+            "critical_baseline_m": finite(result.critical_baseline),
+            "mean_motion_rad_s": finite(problem.mean_motion),
+            "formation": assessment_json(problem, result.formation),
+            "compare": [assessment_json(problem, one) for one in result.compare],
+        },
+        "warnings": list(result.warnings),
+    }
+
+
+def assessment_json(problem: Problem, assessment: Assessment) -> Json:
+    """One formation."""
+    error, unwrapping = assessment.height_error, assessment.unwrapping
+    return {
+        "label": assessment.label,
+        "satellites": [
+            {
+                "name": name,
+                "z0_m": finite(state[0]),
+                "zdot0_m_s": finite(state[3]),
+                "position_rtn_m": _list(state[:3]),
+                "velocity_rtn_m_s": _list(state[3:]),
+            }
+            for name, state in zip(assessment.names, assessment.states, strict=True)
+        ],
+        "height_error": {
+            "region_rms_m": finite(error.region),
+            "relative_rms_m": finite(error.relative_region),
+            "segments_m": _list(error.total),
+            "relative_segments_m": _list(error.relative),
+            "terms_m": {name: finite(term) for name, term in error.region_terms.items()},
+            "reason": unmeasured_reason(assessment),
+        },
+        "unwrapping": None
+        if unwrapping is None
+        else {
+            "probability": finite(unwrapping.probability.min()),
+            "prior_height_std_m": finite(unwrapping.prior_height_std),
+            "segments": _list(unwrapping.probability),
+            "worst_segment": unwrapping.worst_segment + 1,
+            "rungs": [
+                {
+                    "images": _images(problem, assessment.names, rung.images),
+                    "phase_std_rad": finite(rung.phase_std),
+                    "probability": finite(rung.probability),
+                }
+                for rung in unwrapping.rungs
+            ],
+        },
+        "pairs": [_pair_json(problem, assessment.names, pair) for pair in assessment.pairs],
+        "separations": [
+            {
+                "satellites": [assessment.names[first], assessment.names[second]],
+                "min_separation_m": finite(separation),
+            }
+            for (first, second), separation in zip(
+                assessment.separation_pairs, assessment.separations, strict=True
+            )
+        ],
+        "constraints": [
+            {
+                "name": report.limit.name,
+                "value": finite(report.value),
+                "limit": finite(report.limit.value),
+                "bound": report.limit.bound.name.lower(),
+                "unit": report.limit.unit,
+                "margin": finite(report.margin),
+                "satisfied": report.satisfied,
+                "remedy": report.limit.remedy,
+            }
+            for report in assessment.constraints
+        ],
+        "feasible": assessment.feasible,
+    }
+
+
+def _pair_json(problem: Problem, names: tuple[str, ...], pair: ImagePair) -> Json:
+    zero = not np.all(np.isfinite(pair.height_of_ambiguity))
+    return {
+        "images": _images(problem, names, pair.images),
+        "satellites": [names[index] for index in pair_satellites(problem, pair.images)],
+        "perpendicular_baseline_m": _list(pair.perpendicular_baseline),
+        "azimuth_baseline_m": _list(pair.azimuth_baseline),
+        "baseline_over_critical": _list(pair.baseline_over_critical),
+        "height_of_ambiguity_m": _list(pair.height_of_ambiguity),
+        "coherence": _list(pair.coherence),
+        "looks": _list(pair.looks),
+        "reason": "the perpendicular baseline is zero where the height of ambiguity is null"
+        if zero
+        else None,
+    }
+
+
+def _images(problem: Problem, names: tuple[str, ...], images: tuple[int, int]) -> list[str]:
+    return [image_name(problem, names, image) for image in images]
+
+
+def finite(value: Any) -> float | None:
+    """Number as JSON has it: None where it is not finite."""
+    number = float(value)
+    return number if math.isfinite(number) else None
+
+
+def _list(values: Iterable[Any]) -> list[float | None]:
+    return [finite(value) for value in values]

@@ -1,0 +1,106 @@
+"""The end of a report: the study as run, and how to run it again."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from insar import ErrorSource
+from optimize import Problem
+
+from ..document import Block, CodeListing, Column, Section, Table
+from ..study import Provenance, StudyInfo
+from ..wording import counted, fixed, plain, quantity, source_name
+
+
+def closing_sections(
+    problem: Problem, study: StudyInfo, provenance: Provenance
+) -> tuple[Section, ...]:
+    """The study and its provenance."""
+    blocks: list[Block] = [
+        _facts(_setting(problem, study), "The setting: orbit, radar, scene and errors."),
+        CodeListing(study.source_text, "The study file as run."),
+    ]
+    if study.effective is not None:
+        blocks.append(
+            CodeListing(study.effective, "The study as validated, with every default filled in.")
+        )
+    caption = "Provenance. The same study, seed and version give the same result."
+    return (
+        Section("study", "The study as run", tuple(blocks)),
+        Section("provenance", "Provenance", (_facts(_origin(study, provenance), caption),)),
+    )
+
+
+def _facts(rows: list[tuple[str, str]], caption: str) -> Table:
+    frame = pd.DataFrame(rows, columns=["what", "value"])
+    return Table(frame, (Column("what", "Item"), Column("value", "Value")), caption)
+
+
+def _setting(problem: Problem, study: StudyInfo) -> list[tuple[str, str]]:
+    scene, radar, errors = problem.scene, problem.radar, problem.errors
+    transmitters = len({transmitter for transmitter, _ in radar.images})
+    return [
+        ("orbit altitude", f"{fixed(study.orbit_altitude / 1e3, 1)} km"),
+        ("inclination", f"{fixed(math.degrees(study.inclination), 2)}°"),
+        ("wavelength", f"{plain(radar.wavelength * 1e2)} cm"),
+        ("slant-range resolution", f"{plain(radar.slant_range_resolution)} m"),
+        ("signal-to-noise ratio", f"{fixed(10.0 * math.log10(radar.snr), 1)} dB"),
+        ("looks", f"{radar.looks:g}"),
+        ("satellites", str(radar.satellite_count)),
+        ("images", f"{len(radar.images)}, of {counted(transmitters, 'transmitter')}"),
+        ("scene", counted(len(scene), "segment")),
+        ("look angle", _degrees(scene.look_angle)),
+        ("incidence", _degrees(scene.incidence)),
+        ("azimuth of the line of sight", _degrees(scene.azimuth)),
+        ("slant range", _span(scene.slant_range / 1e3, "km", 1)),
+        *(
+            (f"error of {source_name(name)}", _error(source, unit))
+            for name, source, unit in (
+                ("position", errors.position, "m"),
+                ("range", errors.range, "m"),
+                ("azimuth", errors.azimuth, "rad"),
+                ("synchronization", errors.synchronization, "rad"),
+            )
+        ),
+        ("weighting", str(errors.weighting)),
+        ("baseline decorrelation", str(errors.baseline_decorrelation)),
+        ("held constant while the height changes", str(errors.held_constant)),
+    ]
+
+
+def _error(source: ErrorSource, unit: str) -> str:
+    if source.std == 0.0:
+        return "none"
+    return (
+        f"{quantity(plain(source.std), unit)}, shared by {source.shared_by}, "
+        f"constant over the {source.scale}"
+    )
+
+
+def _degrees(angles: NDArray[np.float64]) -> str:
+    return _span(np.rad2deg(angles), "°", 2)
+
+
+def _span(values: NDArray[np.float64], unit: str, decimals: int) -> str:
+    low, high = fixed(float(values.min()), decimals), fixed(float(values.max()), decimals)
+    text = low if low == high else f"{low} … {high}"
+    return f"{text}{unit}" if unit == "°" else quantity(text, unit)
+
+
+def _origin(study: StudyInfo, provenance: Provenance) -> list[tuple[str, str]]:
+    return [
+        ("formation-opt", provenance.version),
+        ("command", provenance.command),
+        ("seed", "none" if provenance.seed is None else str(provenance.seed)),
+        ("study file, SHA-256", study.config_sha256),
+        ("formations scored", str(provenance.evaluations)),
+        ("started", provenance.started),
+        ("duration", f"{provenance.wall_s:.1f} s"),
+        ("Python", provenance.python),
+        ("platform", provenance.platform),
+        *provenance.packages.items(),
+    ]

@@ -1,0 +1,211 @@
+"""How a result was computed: the equations, and where they come from."""
+
+from __future__ import annotations
+
+from insar import BaselineDecorrelation, HeldConstant, Weighting
+from optimize import Problem, SearchResult
+
+from ..document import Block, Equation, Paragraph, Reference, References, Section, Strong, Symbol
+
+_CLOHESSY = Reference(
+    "W. H. Clohessy and R. S. Wiltshire, “Terminal guidance system for satellite rendezvous,” "
+    "J. Aerospace Sci. 27(9), 653–658, 1960.",
+    "10.2514/8.8704",
+)
+_LI = Reference(
+    "F. Li, Y. Wang and H. Yan, “Formation optimization for distributed satellites SAR based on "
+    "height error,” J. Electronics & Information Technology 31(4), 808–812, 2009.",
+    "",
+)
+_RODRIGUEZ = Reference(
+    "E. Rodriguez and J. M. Martin, “Theory and design of interferometric synthetic aperture "
+    "radars,” IEE Proc. F 139(2), 147–159, 1992.",
+    "10.1049/ip-f-2.1992.0018",
+)
+_GATELLI = Reference(
+    "F. Gatelli et al., “The wavenumber shift in SAR interferometry,” IEEE Trans. Geosci. Remote "
+    "Sens. 32(4), 855–865, 1994.",
+    "10.1109/36.298013",
+)
+_TEUNISSEN = Reference(
+    "P. J. G. Teunissen, “Success probability of integer GPS ambiguity rounding and "
+    "bootstrapping,” J. Geodesy 72, 606–612, 1998.",
+    "10.1007/s001900050199",
+)
+_DEB = Reference(
+    "K. Deb, “An efficient constraint handling method for genetic algorithms,” Comput. Methods "
+    "Appl. Mech. Eng. 186(2–4), 311–338, 2000.",
+    "10.1016/S0045-7825(99)00389-8",
+)
+_FORTIN = Reference(
+    "F.-A. Fortin et al., “DEAP: evolutionary algorithms made easy,” J. Mach. Learn. Res. 13, "
+    "2171–2175, 2012.",
+    "",
+)
+
+_SENSITIVITY = Equation(
+    latex=r"k_{z,ij} = \frac{2\pi}{\lambda}\,"
+    r"\frac{(\mathbf{q}_j - \mathbf{q}_i)\cdot\mathbf{e}_h}{r\,(\mathbf{e}_h\cdot\mathbf{u})},"
+    r"\qquad \mathbf{q} = \mathbf{p}_\mathrm{tx} + \mathbf{p}_\mathrm{rx}",
+    typst="k_(z,i j) = (2 pi) / lambda ((bold(q)_j - bold(q)_i) dot bold(e)_h) "
+    '/ (r thin (bold(e)_h dot bold(u))), quad bold(q) = bold(p)_"tx" + bold(p)_"rx"',
+)
+_INFORMATION = Equation(
+    latex=r"J = \mathbf{k}_z^{T}\left(X^{-1} + F F^{T}\right)^{-1}\mathbf{k}_z,"
+    r"\qquad e^2 = \frac{1}{J} + \cos^2\theta_\mathrm{inc}\,\sigma_r^2",
+    typst="J = bold(k)_z^sans(T) (X^(-1) + F F^sans(T))^(-1) bold(k)_z, quad "
+    'e^2 = 1 / J + cos^2 theta_"inc" thin sigma_r^2',
+)
+_REGION = Equation(
+    latex=r"E = \sqrt{\frac{1}{S}\sum\limits_{s=1}^{S} e_s^2}",
+    typst="E = sqrt(1 / S sum_(s=1)^S e_s^2)",
+)
+_BOOTSTRAP = Equation(
+    latex=r"P = \prod\limits_i \left[2\,\Phi\!\left(\frac{1}{2\sigma_i}\right) - 1\right]",
+    typst="P = product_i [2 Phi(1 / (2 sigma_i)) - 1]",
+)
+
+
+class _Citations:
+    """Numbers the works in the order in which they are cited."""
+
+    def __init__(self) -> None:
+        self.works: list[Reference] = []
+
+    def __call__(self, *works: Reference) -> str:
+        self.works += [work for work in works if work not in self.works]
+        return ", ".join(f"[{self.works.index(work) + 1}]" for work in works)
+
+
+def methods_section(problem: Problem, *, search: SearchResult | None) -> Section:
+    """Methods and references.
+
+    Parameters
+    ----------
+    problem : whose model and limits decide what was used.
+    search : the search; None where nothing was searched.
+    """
+    cite = _Citations()
+    blocks: list[Block] = [
+        Paragraph(
+            f"The satellites move as the Clohessy-Wiltshire equations say {cite(_CLOHESSY)}: "
+            "linear motion about a circular reference orbit, without perturbations."
+        ),
+        *_sensitivity(problem),
+        *_height(problem, cite),
+        Paragraph(
+            (
+                "The error of the region is the RMS over its ",
+                Symbol("S"),
+                f" segments {cite(_LI)}:",
+            )
+        ),
+        _REGION,
+    ]
+    if problem.constraints.prior_height_std is not None:
+        blocks += [
+            Paragraph(
+                (
+                    "The probability of unwrapping is that of integer bootstrapping along the "
+                    f"ladder of pairs {cite(_TEUNISSEN)}, ",
+                    Symbol("σ_i"),
+                    " the deviation in cycles of a rung's phase given the prior height and the "
+                    "rungs below:",
+                )
+            ),
+            _BOOTSTRAP,
+        ]
+    if search is not None:
+        blocks.append(
+            Paragraph(
+                f"The search is a genetic algorithm (DEAP {cite(_FORTIN)}) that ranks by "
+                f"feasibility first {cite(_DEB)}; its best, mutually distant designs are then "
+                "refined by sequential quadratic programming (SLSQP). This finds good formations, "
+                "but proves none to be the best."
+            )
+        )
+    return Section("methods", "How it was computed", (*blocks, References(tuple(cite.works))))
+
+
+def _sensitivity(problem: Problem) -> tuple[Block, ...]:
+    held = {
+        HeldConstant.DOPPLER: "at constant range and Doppler, as in a SAR image",
+        HeldConstant.AZIMUTH: "at constant range and azimuth angle, the form of Li 2009",
+    }[problem.errors.held_constant]
+    return (
+        Paragraph(
+            (
+                "An image has the phase centre ",
+                Strong("q"),
+                " of its transmitter and receiver. The height sensitivity of the phase between "
+                "two images is",
+            )
+        ),
+        _SENSITIVITY,
+        Paragraph(
+            (
+                "with the wavelength λ, the slant range ",
+                Symbol("r"),
+                ", the vertical ",
+                Strong("u"),
+                " at the target and ",
+                Strong("e"),
+                Symbol("_h"),
+                f" the direction in which the line of sight turns when the target rises {held}.",
+            )
+        ),
+    )
+
+
+_DECORRELATION: dict[BaselineDecorrelation, tuple[str, tuple[Reference, ...]]] = {
+    BaselineDecorrelation.FILTERED: (
+        "Images are filtered to the range band that they have in common: a baseline costs looks, "
+        "not coherence",
+        (_GATELLI,),
+    ),
+    BaselineDecorrelation.UNFILTERED: (
+        "Images are not filtered to their common range band: a baseline costs coherence",
+        (_GATELLI,),
+    ),
+    BaselineDecorrelation.NONE: ("The loss of coherence with the baseline is neglected", ()),
+}
+
+
+def _height(problem: Problem, cite: _Citations) -> tuple[Block, ...]:
+    errors = problem.errors
+    if errors.weighting is Weighting.JOINT:
+        weighting = "is the joint Fisher information of the image phases"
+    else:
+        weighting = (
+            f"takes the pairs of images as if each were measured independently {cite(_LI)}, which "
+            "for more than two images is more than can be known"
+        )
+    if errors.phase_std is None:
+        noise = f"by the Cramér-Rao bound of their coherence and looks {cite(_RODRIGUEZ)}"
+    else:
+        noise = "with the phase noise that the study states"
+    decorrelation, works = _DECORRELATION[errors.baseline_decorrelation]
+    source = f" {cite(*works)}" if works else ""
+    return (
+        Paragraph(
+            (
+                "The error ",
+                Symbol("e"),
+                " of the least-squares height in one segment follows from",
+            )
+        ),
+        _INFORMATION,
+        Paragraph(
+            (
+                "where ",
+                Symbol("X"),
+                f" {weighting}, {noise}; ",
+                Symbol("F"),
+                " holds the errors that images share (position, azimuth, synchronization), and ",
+                Symbol("σ_r"),
+                f" is the error of the slant range. {decorrelation}{source}. The relative error "
+                "counts only what varies from pixel to pixel. All of it holds while phase noise "
+                "is small and the phase is unwrapped rightly.",
+            )
+        ),
+    )

@@ -1,0 +1,100 @@
+"""The report of a study of kind `optimize`: a formation that was searched for."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pandas as pd
+
+from optimize import Assessment, OptimizeResult
+
+from ..document import Block, Document, Figure, Paragraph, Section
+from ..figures.convergence import convergence_figure
+from ..json_result import optimize_json
+from ..reading import Shown, refined
+from ..study import Provenance, StudyInfo
+from ..tables import formation_frame, height_error_frame
+from ..wording import counted, metres
+from . import sections
+from .closing import closing_sections
+from .interferometry import pairs_section, unwrapping_section
+from .methods import methods_section
+from .verdict import optimize_verdict
+
+_INITIAL_STYLE, _BEST_STYLE = 7, 0
+
+
+def document(result: OptimizeResult, study: StudyInfo, provenance: Provenance) -> Document:
+    """Report of an optimization."""
+    problem = result.problem
+    initial, best = Shown(result.initial, _INITIAL_STYLE), Shown(result.best, _BEST_STYLE)
+    others = [Shown(one, 1 + index) for index, one in enumerate(result.compare)]
+    return sections.document(
+        study,
+        provenance,
+        Section(
+            "result",
+            "Result",
+            (*optimize_verdict(result), *sections.warning_blocks(result.warnings)),
+        ),
+        sections.formation_section(problem, [best, initial]),
+        sections.height_error_section(problem, [initial, best, *others]),
+        _convergence_section(result),
+        pairs_section(problem, [result.best, result.initial]),
+        unwrapping_section(problem, [initial, best, *others], ladder=result.best),
+        sections.attribution_section([initial, best]),
+        sections.constraints_section([result.best, result.initial]),
+        sections.comparison_section(result.best, result.compare),
+        methods_section(problem, search=result.search),
+        *closing_sections(problem, study, provenance),
+    )
+
+
+def json(result: OptimizeResult) -> dict[str, Any]:
+    """Part of ``result.json`` that belongs to an optimization."""
+    return optimize_json(result)
+
+
+def csv(result: OptimizeResult) -> dict[str, pd.DataFrame]:
+    """Tables of an optimization."""
+    assessments: list[Assessment] = [result.initial, result.best, *result.compare]
+    return {
+        "height_error.csv": height_error_frame(result.problem, assessments),
+        "formation.csv": formation_frame(assessments),
+    }
+
+
+def _convergence_section(result: OptimizeResult) -> Section:
+    search = result.search
+    text = f"{counted(search.evaluations, 'formation')} were scored"
+    if refined(search):
+        last = search.history[-1].evaluations - search.history[-2].evaluations
+        text += f", {last} of them by the local refinement"
+    text += "."
+    blocks: list[Block] = []
+    if refined(search):
+        before, after = search.genetic_objective, search.objective
+        if search.feasible:
+            text += (
+                f" The genetic algorithm alone reached {metres(before)}; local refinement of its "
+                f"best, mutually distant designs brought {metres(after)}."
+            )
+        else:
+            text += " Neither the genetic algorithm nor the refinement met every limit."
+    elif not search.interrupted:
+        text += " The best was not refined."
+    if search.interrupted:
+        text += " The search was interrupted before its end."
+    blocks.append(Paragraph(text))
+    if any(record.feasible_fraction > 0.0 for record in search.history):
+        blocks.append(
+            Figure(
+                convergence_figure(search),
+                "Convergence. Above: region height error of the best feasible formation so far, "
+                "and mean over the feasible formations of each generation. Below: feasible share "
+                "of each generation.",
+                "Line chart of the best and the mean height error against the number of "
+                "formations scored, above an area chart of the feasible share.",
+            )
+        )
+    return Section("convergence", "Convergence of the search", tuple(blocks))

@@ -1,0 +1,222 @@
+"""The verdict: the result in one paragraph and four figures."""
+
+from __future__ import annotations
+
+import math
+
+from optimize import Assessment, EvaluateResult, OptimizeResult, Problem
+
+from ..document import Block, Callout, Metric, Metrics, Status, Strong, Text
+from ..reading import (
+    active,
+    broken,
+    decorrelation_neglected,
+    incoherent_pairs,
+    measured,
+    shares,
+    unmeasured_reason,
+)
+from ..wording import (
+    counted,
+    joined,
+    metres,
+    percent,
+    plain,
+    probability,
+    quantity,
+    source_name,
+)
+from .limits import shortfall_text
+
+_DOUBTFUL_PROBABILITY = 0.9
+"""Probability of unwrapping below which a verdict without a limit on it is a warning."""
+
+
+def optimize_verdict(result: OptimizeResult) -> tuple[Block, ...]:
+    """Verdict on a search."""
+    best, initial = result.best, result.initial
+    paragraphs: list[Text] = []
+    if result.search.interrupted:
+        paragraphs.append(
+            (
+                Strong("The search was interrupted. "),
+                "This is the best formation found until then; a full run may find a better one.",
+            )
+        )
+    if best.feasible:
+        paragraphs.append((*_achieved(best), " ", _against(initial, best)))
+        status, title = Status.GOOD, f"Height error {metres(float(best.height_error.region))}"
+    else:
+        paragraphs.append(
+            "No formation that keeps every limit was found. Shown is the one that breaks them "
+            "least; it is not a solution."
+        )
+        status, title = Status.BAD, "No feasible formation"
+    paragraphs += _remarks(result.problem, best)
+    if status is Status.GOOD and (result.search.interrupted or _doubtful(result.problem, best)):
+        status = Status.WARNING
+    return Callout(status, title, tuple(paragraphs)), _metrics(result.problem, best)
+
+
+def evaluate_verdict(result: EvaluateResult) -> tuple[Block, ...]:
+    """Verdict on a given formation."""
+    formation = result.formation
+    if not measured(formation):
+        status, title = Status.BAD, "No height is measured"
+        paragraphs: list[Text] = []
+    else:
+        title = f"Height error {metres(float(formation.height_error.region))}"
+        status = Status.GOOD if formation.feasible else Status.BAD
+        paragraphs = [_achieved(formation)]
+    paragraphs += _remarks(result.problem, formation)
+    if status is Status.GOOD and _doubtful(result.problem, formation):
+        status = Status.WARNING
+    return Callout(status, title, tuple(paragraphs)), _metrics(result.problem, formation)
+
+
+def _achieved(formation: Assessment) -> tuple[str, ...]:
+    error = formation.height_error
+    return (
+        f"The {formation.label} formation measures height with an error of ",
+        Strong(metres(float(error.region))),
+        f" (total, RMS over {counted(error.total.size, 'segment')} of the scene), of which ",
+        Strong(metres(float(error.relative_region))),
+        " varies from pixel to pixel (relative error).",
+    )
+
+
+def _against(initial: Assessment, best: Assessment) -> str:
+    """The initial formation's error, and whether it may be compared at all."""
+    if not measured(initial):
+        return f"The {initial.label} formation measures no height: {unmeasured_reason(initial)}."
+    before, after = float(initial.height_error.region), float(best.height_error.region)
+    figures = f"{metres(before)} (relative {metres(float(initial.height_error.relative_region))})"
+    if not initial.feasible:
+        names = joined([report.limit.name for report in broken(initial)])
+        return (
+            f"The {initial.label} formation would have {figures}, but breaks the limit on {names}, "
+            "so the two are not comparable."
+        )
+    if after < before:
+        return f"The {initial.label} formation has {figures}, {before / after:.3g} times as much."
+    return f"The {initial.label} formation has {figures}."
+
+
+def _remarks(problem: Problem, formation: Assessment) -> list[Text]:
+    """What limits the formation, whether it can be unwrapped, and how it stands to the limits."""
+    remarks: list[Text] = []
+    reason = unmeasured_reason(formation)
+    if reason is not None:
+        remarks.append((Strong("No height is measured: "), f"{reason}."))
+    else:
+        remarks.append(_limited_by(formation))
+        remarks.append(_unwrapping(problem, formation))
+    remarks += [
+        (
+            Strong(f"Broken: {report.limit.name}. "),
+            f"{shortfall_text(report)} Remedy: {report.limit.remedy}.",
+        )
+        for report in broken(formation)
+    ]
+    if formation.constraints and not broken(formation):
+        count = len(formation.constraints)
+        remarks.append("The only limit is kept." if count == 1 else f"All {count} limits are kept.")
+    incoherent = incoherent_pairs(formation)
+    if incoherent and decorrelation_neglected(problem):
+        remarks.append(
+            (
+                Strong(
+                    f"{incoherent} of {counted(len(formation.pairs), 'pair')} reach the critical "
+                    "baseline, where nothing is coherent. "
+                ),
+                "The study neglects that, so the model counts them: the error of a real radar is "
+                "larger than stated.",
+            )
+        )
+    return remarks
+
+
+def _limited_by(formation: Assessment) -> Text:
+    first, *rest = shares(formation)
+    text: tuple[str, ...] = (
+        "The largest contribution is ",
+        Strong(source_name(first.source)),
+        f" ({metres(first.contribution)}, {percent(first.variance_share)} of the variance)",
+    )
+    if rest and rest[0].variance_share >= 0.05:
+        second = rest[0]
+        text += (
+            f", then {source_name(second.source)} ({metres(second.contribution)}, "
+            f"{percent(second.variance_share)})",
+        )
+    at_limit = [report.limit.name for report in formation.constraints if active(report)]
+    if at_limit:
+        noun = "limit" if len(at_limit) == 1 else "limits"
+        return (
+            *text,
+            f". The design is held back by the {noun} on ",
+            Strong(joined(at_limit)),
+            ".",
+        )
+    free = formation.constraints and not broken(formation)
+    return (*text, "; no limit is active." if free else ".")
+
+
+def _unwrapping(problem: Problem, formation: Assessment) -> Text:
+    unwrapping = formation.unwrapping
+    if unwrapping is None:
+        return (
+            "Whether the phase can be unwrapped was not assessed: the study gives no prior height."
+        )
+    worst = probability(float(unwrapping.probability.min()))
+    return (
+        "With heights known beforehand to ",
+        quantity(plain(unwrapping.prior_height_std), "m"),
+        ", every cycle of the phase is found with probability ",
+        Strong(worst),
+        f" in the worst segment ({unwrapping.worst_segment + 1} of {unwrapping.probability.size})"
+        + ("." if not _doubtful(problem, formation) else ": where it is not, the height is wrong."),
+    )
+
+
+def _doubtful(problem: Problem, formation: Assessment) -> bool:
+    """Whether the figure stands on a phase that may not be unwrapped, or pairs that are noise."""
+    unwrapping = formation.unwrapping
+    improbable = (
+        unwrapping is not None and float(unwrapping.probability.min()) < _DOUBTFUL_PROBABILITY
+    )
+    return improbable or (decorrelation_neglected(problem) and incoherent_pairs(formation) > 0)
+
+
+def _metrics(problem: Problem, formation: Assessment) -> Metrics:
+    error, unwrapping = formation.height_error, formation.unwrapping
+    reason = unmeasured_reason(formation)
+    items = [
+        Metric("Height error", metres(float(error.region)), reason or "total, RMS of the scene"),
+    ]
+    if reason is None:
+        relative = metres(float(error.relative_region))
+        items.append(Metric("Relative error", relative, "from pixel to pixel"))
+    if unwrapping is not None and reason is None:
+        required = problem.constraints.min_unwrapping_probability
+        value = float(unwrapping.probability.min())
+        remark = "probability"
+        if required is not None:
+            remark += f", at least {required:.6g}"
+        items.append(Metric("Unwrapping", probability(value), remark))
+    separation = float(formation.separations.min()) if formation.separations.size else math.nan
+    if math.isfinite(separation):
+        items.append(Metric("Closest approach", metres(separation), "any two, at any time"))
+    count, kept = len(formation.constraints), len(formation.constraints) - len(broken(formation))
+    if count:
+        status = Status.GOOD if kept == count else Status.BAD
+        items.append(Metric("Limits kept", f"{kept} of {count}", _closest(formation), status))
+    return Metrics(tuple(items))
+
+
+def _closest(formation: Assessment) -> str:
+    failed = broken(formation)
+    if failed:
+        return f"broken: {joined([report.limit.name for report in failed])}"
+    at_limit = sum(active(report) for report in formation.constraints)
+    return f"{at_limit} active" if at_limit else "none active"

@@ -1,0 +1,139 @@
+"""What a report reads out of an assessment before it words or draws it."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from insar import BaselineDecorrelation, HeightStatus
+from optimize import Assessment, ConstraintReport, Problem, SearchResult
+from optimize.constraints import FailureLimit
+
+ACTIVE_MARGIN = 1e-3
+"""Margin, in parts of the limit, below which a limit that is kept counts as active."""
+
+
+class Shown(NamedTuple):
+    """A formation as a figure shows it.
+
+    Attributes
+    ----------
+    assessment : the formation.
+    style : index of its color and marker.
+    """
+
+    assessment: Assessment
+    style: int
+
+    @property
+    def name(self) -> str:
+        """Its label, with a remark where it must not be taken for a solution."""
+        assessment = self.assessment
+        if not measured(assessment):
+            return f"{assessment.label} (measures no height)"
+        return assessment.label if assessment.feasible else f"{assessment.label} (breaks a limit)"
+
+
+class Share(NamedTuple):
+    """The contribution of one source: RMS over the segments [m], and its part of the variance."""
+
+    source: str
+    contribution: float
+    variance_share: float
+
+
+def shares(assessment: Assessment) -> tuple[Share, ...]:
+    """Contributions to the region error, the largest first."""
+    terms = {name: float(value) for name, value in assessment.height_error.region_terms.items()}
+    total = float(assessment.height_error.region) ** 2
+    found = [
+        Share(name, value, value**2 / total if math.isfinite(total) and total > 0.0 else math.nan)
+        for name, value in terms.items()
+    ]
+    return tuple(sorted(found, key=lambda share: (-share.contribution, share.source)))
+
+
+def measured(assessment: Assessment) -> bool:
+    """Whether the height is measured in every segment."""
+    return bool(np.all(assessment.height_error.status == HeightStatus.MEASURED))
+
+
+def unmeasured_reason(assessment: Assessment) -> str | None:
+    """Why no height is measured, and in how many segments; None where it is."""
+    status = assessment.height_error.status
+    missing = status[status != HeightStatus.MEASURED]
+    if missing.size == 0:
+        return None
+    reasons = [HeightStatus(value).reason for value in np.unique(missing)]
+    return f"{' or '.join(reasons)} in {missing.size} of {status.size} segments"
+
+
+def active(report: ConstraintReport) -> bool:
+    """Whether a limit is kept with next to no margin, so that it holds the design back."""
+    # A probability is limited through its failure: 0.9905 is not close to 0.99.
+    limit = report.limit
+    scale = 1.0 - limit.value if isinstance(limit, FailureLimit) else limit.value
+    return report.satisfied and report.margin < ACTIVE_MARGIN * scale
+
+
+def broken(assessment: Assessment) -> tuple[ConstraintReport, ...]:
+    """The limits that a formation breaks."""
+    return tuple(report for report in assessment.constraints if not report.satisfied)
+
+
+def image_name(problem: Problem, names: tuple[str, ...], image: int) -> str:
+    """Image as transmitter→receiver."""
+    transmitter, receiver = problem.radar.images[image]
+    return f"{names[transmitter]}→{names[receiver]}"
+
+
+def sole_transmitter(problem: Problem) -> int | None:
+    """Index of the satellite that transmits for all images; None where several do."""
+    transmitters = {transmitter for transmitter, _ in problem.radar.images}
+    return transmitters.pop() if len(transmitters) == 1 else None
+
+
+def pair_name(problem: Problem, names: tuple[str, ...], images: tuple[int, int]) -> str:
+    """Pair of images by their names; by the receivers alone where one satellite transmits."""
+    if sole_transmitter(problem) is not None:
+        return " · ".join(names[problem.radar.images[image][1]] for image in images)
+    return " · ".join(image_name(problem, names, image) for image in images)
+
+
+def pair_satellites(problem: Problem, images: tuple[int, int]) -> tuple[int, ...]:
+    """Satellites between whose phase centres the baseline of a pair lies."""
+    first, second = problem.radar.incidence_matrix[list(images)]
+    return tuple(int(index) for index in np.flatnonzero(first != second))
+
+
+def incoherent_pairs(assessment: Assessment) -> int:
+    """How many pairs reach their critical baseline in some segment."""
+    return sum(bool(np.any(pair.baseline_over_critical >= 1.0)) for pair in assessment.pairs)
+
+
+def decorrelation_neglected(problem: Problem) -> bool:
+    """Whether the error model counts pairs beyond their critical baseline as if coherent."""
+    return problem.errors.baseline_decorrelation is BaselineDecorrelation.NONE
+
+
+def rung_numbers(assessment: Assessment) -> dict[tuple[int, int], int]:
+    """Pair of images → its rung of the unwrapping ladder, from 1."""
+    if assessment.unwrapping is None:
+        return {}
+    return {rung.images: number for number, rung in enumerate(assessment.unwrapping.rungs, 1)}
+
+
+def refined(search: SearchResult) -> bool:
+    """Whether the last line of the history is the local refinement, which scores no generation."""
+    if len(search.history) < 2:
+        return False
+    before, last = search.history[-2:]
+    same_mean = last.mean == before.mean or (math.isnan(last.mean) and math.isnan(before.mean))
+    population = search.history[0].evaluations
+    return (
+        same_mean
+        and last.feasible_fraction == before.feasible_fraction
+        and last.evaluations - before.evaluations != population
+    )

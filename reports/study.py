@@ -1,0 +1,59 @@
+"""What a report says of the study behind a result, and of how it was run."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, kw_only=True)
+class StudyInfo:
+    """The study that was run.
+
+    Attributes
+    ----------
+    name : title of the report.
+    kind : what was run, such as ``optimize``.
+    description : the study's own words; may be empty.
+    source_text : the study file as run (YAML).
+    config_sha256 : digest of that file.
+    effective : the study as validated, with every default filled in (YAML); None to leave it out.
+    orbit_altitude : scalar — height of the reference orbit above the equatorial radius [m].
+    inclination : scalar — of the reference orbit [rad].
+    """
+
+    name: str
+    kind: str
+    description: str
+    source_text: str
+    config_sha256: str
+    effective: str | None = None
+    orbit_altitude: float
+    inclination: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Provenance:
+    """How the result came about, so that anyone can repeat it.
+
+    Attributes
+    ----------
+    version : of formation-opt.
+    seed : of the random generator; None where nothing is random.
+    python, platform : of the machine.
+    packages : package → version, those that the numbers depend on.
+    started : date and time, ISO 8601.
+    wall_s : duration of the run [s].
+    evaluations : formations scored.
+    command : the command as given.
+    """
+
+    version: str
+    seed: int | None
+    python: str
+    platform: str
+    packages: Mapping[str, str]
+    started: str
+    wall_s: float
+    evaluations: int
+    command: str

@@ -1,0 +1,93 @@
+"""Writes every file of a report."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Collection, Iterator
+from pathlib import Path
+
+from .study import Provenance, StudyInfo
+
+FORMATS = ("html", "pdf")
+"""Formats that can be asked for; JSON and CSV are always written."""
+
+
+def write_report(
+    result: object,
+    *,
+    study: StudyInfo,
+    provenance: Provenance,
+    out: Path,
+    formats: Collection[str] = FORMATS,
+) -> tuple[Path, ...]:
+    """Write the report of a result.
+
+    Parameters
+    ----------
+    result : of a kind that `reports.pages` knows, such as `optimize.OptimizeResult`.
+    study : the study that was run.
+    provenance : how it was run.
+    out : folder of the files; made if it does not exist.
+    formats : of ``html`` and ``pdf``; ``result.json`` and the tables are written in any case.
+
+    Returns
+    -------
+    Paths of the files written. Each is complete or absent, never half written.
+
+    Raises
+    ------
+    ValueError
+        If a format is unknown.
+    TypeError
+        If there is no page for this type of result.
+    """
+    unknown = sorted(set(formats) - set(FORMATS))
+    if unknown:
+        raise ValueError(f"formats = {unknown!r} is unknown; choose of {', '.join(FORMATS)}")
+    out.mkdir(parents=True, exist_ok=True)
+    written = []
+    for name, content in _files(result, study, provenance, formats):
+        _replace(out / name, content)
+        written.append(out / name)
+    return tuple(written)
+
+
+def _files(
+    result: object, study: StudyInfo, provenance: Provenance, formats: Collection[str]
+) -> Iterator[tuple[str, bytes]]:
+    """Names and contents, the cheapest first: a failing figure loses no numbers."""
+    # Imported here: matplotlib and pandas take longer than the command's --help may.
+    from .json_result import result_json
+    from .pages import page_of
+    from .tables import csv_bytes
+
+    page = page_of(result)
+    yield "result.json", result_json(page.json(result), study=study, provenance=provenance)
+    for name, frame in page.csv(result).items():
+        yield name, csv_bytes(frame)
+    if not formats:
+        return
+    document = page.document(result, study, provenance)
+    if "html" in formats:
+        from .html import html_bytes
+
+        yield "report.html", html_bytes(document)
+    if "pdf" in formats:
+        from .pdf import pdf_bytes
+
+        yield "report.pdf", pdf_bytes(document)
+
+
+def _replace(path: Path, content: bytes) -> None:
+    """Write a file in one step, so that a reader never sees half of it."""
+    handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
+    temporary = Path(name)
+    try:
+        with os.fdopen(handle, "wb") as file:
+            file.write(content)
+        temporary.chmod(0o644)  # mkstemp makes it private
+        temporary.replace(path)
+    except BaseException:
+        temporary.unlink(missing_ok=True)
+        raise

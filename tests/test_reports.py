@@ -1,0 +1,489 @@
+"""Reports: contract of result.json, texts as data, one file without network, odd results."""
+
+from __future__ import annotations
+
+import copy
+import csv
+import dataclasses
+import io
+import json
+import math
+import re
+import subprocess
+import sys
+from html.parser import HTMLParser
+from pathlib import Path
+
+import jsonschema
+import numpy as np
+import pytest
+
+from formation import Orbit, equally_spaced, ground_track_circular
+from insar import ErrorBudget, ErrorSource, Radar, Scene, SharedBy, one_transmitter, ping_pong
+from optimize import (
+    Assessment,
+    Constraints,
+    DesignSpace,
+    EvaluateResult,
+    GeneticSettings,
+    OptimizeResult,
+    Problem,
+    SearchSettings,
+    assess,
+    search,
+)
+from reports import Provenance, StudyInfo, write_report
+from reports.document import Strong, Symbol
+from reports.figures.convergence import convergence_figure
+from reports.html import html_bytes
+from reports.json_result import result_schema
+from reports.pages import page_of
+from reports.pdf import pdf_bytes
+
+ORBIT = Orbit.circular(altitude=514e3, inclination=1.7)
+RADIUS = 1350.0
+
+ATTACKS = (
+    "<script>alert(1)</script>",
+    '#include "x"',
+    "$x$ *bold* _under_",
+    '"quote" & ]',
+    "\\ #panic() `raw` </script>",
+)
+
+
+def make_problem(*, satellites: int = 3, segments: int = 4, **limits: float) -> Problem:
+    scene = Scene.broadside_strip(
+        times=np.linspace(0.0, 9.0, segments),
+        look_angle=math.radians(23.0),
+        altitude=514e3,
+        earth_radius=6378137.0,
+    )
+    radar = Radar(
+        wavelength=0.031,
+        slant_range_resolution=3.0,
+        snr=10.0,
+        looks=16.0,
+        images=one_transmitter(satellites),
+    )
+    errors = ErrorBudget(
+        position=ErrorSource(0.001, SharedBy.SATELLITE), range=ErrorSource(0.01, SharedBy.ALL)
+    )
+    constraints = Constraints(**({"max_radius": RADIUS, "min_separation": 100.0} | limits))
+    return Problem(
+        mean_motion=ORBIT.mean_motion,
+        scene=scene,
+        radar=radar,
+        errors=errors,
+        constraints=constraints,
+    )
+
+
+def make_space(names: tuple[str, ...]) -> DesignSpace:
+    return DesignSpace(
+        names=names,
+        family=ground_track_circular,
+        mean_motion=ORBIT.mean_motion,
+        max_offset=RADIUS / 2.0,
+        max_rate=RADIUS / 2.0 * ORBIT.mean_motion,
+    )
+
+
+def circle(problem: Problem, names: tuple[str, ...], label: str, radius: float) -> Assessment:
+    z0, zdot0 = equally_spaced(len(names), radius=radius, mean_motion=problem.mean_motion)
+    states = ground_track_circular(z0, zdot0, mean_motion=problem.mean_motion)
+    return assess(problem, states, label=label, names=names)
+
+
+def optimized(
+    problem: Problem, names: tuple[str, ...] = ("1", "2", "3"), refinements: int = 1
+) -> OptimizeResult:
+    space = make_space(names)
+    settings = SearchSettings(GeneticSettings(population=12, generations=4), refinements)
+    found = search(problem, space, settings=settings, rng=np.random.default_rng(1))
+    return OptimizeResult(
+        problem=problem,
+        critical_baseline=2707.0,
+        initial=circle(problem, names, "initial", RADIUS),
+        best=assess(problem, space.states(found.design), label="best", names=names),
+        compare=(),
+        search=found,
+        warnings=(),
+    )
+
+
+def study_info(kind: str = "optimize", **changes: str) -> StudyInfo:
+    info = StudyInfo(
+        name="Three satellites",
+        kind=kind,
+        description="A strip to the left.",
+        source_text="kind: optimize\n",
+        config_sha256="0" * 64,
+        orbit_altitude=514e3,
+        inclination=1.7,
+    )
+    return dataclasses.replace(info, **changes)
+
+
+PROVENANCE = Provenance(
+    version="0.1.0",
+    seed=1,
+    python="3.11.7",
+    platform="Linux",
+    packages={"numpy": "2.0"},
+    started="2026-01-01T00:00:00+00:00",
+    wall_s=1.5,
+    evaluations=100,
+    command="formation-opt three_sat",
+)
+
+
+def rendered_html(result: object, study: StudyInfo) -> str:
+    return html_bytes(page_of(result).document(result, study, PROVENANCE)).decode()
+
+
+class Page(HTMLParser):
+    """Tags with their attributes, and the text outside scripts and styles."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.tags: list[tuple[str, dict[str, str | None]]] = []
+        self.words: list[str] = []
+        self._quiet = False
+        self.feed(text)
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.tags.append((tag, dict(attrs)))
+        self._quiet = tag in ("script", "style")
+
+    def handle_endtag(self, tag: str) -> None:
+        self._quiet = False
+
+    def handle_data(self, data: str) -> None:
+        if not self._quiet:
+            self.words.append(data)
+
+    @property
+    def text(self) -> str:
+        return " ".join(self.words)
+
+
+@pytest.fixture(scope="module")
+def result() -> OptimizeResult:
+    problem = make_problem(min_unwrapping_probability=0.99, prior_height_std=4.0)
+    names = ("1", "2", "3")
+    found = optimized(problem, names)
+    wide = circle(problem, names, "wide", 3.0 * RADIUS)
+    return dataclasses.replace(found, compare=(wide,), warnings=("Check the prior DEM.",))
+
+
+def no_baseline() -> OptimizeResult:
+    problem = make_problem(prior_height_std=4.0)
+    found = optimized(problem)
+    still = assess(problem, np.zeros((3, 6)), label="still", names=("1", "2", "3"))
+    return dataclasses.replace(found, initial=still, best=still)
+
+
+def interrupted() -> OptimizeResult:
+    found = optimized(make_problem(), refinements=0)
+    cut = dataclasses.replace(found.search, interrupted=True, history=found.search.history[:1])
+    return dataclasses.replace(found, search=cut)
+
+
+def evaluated() -> EvaluateResult:
+    problem = make_problem(prior_height_std=4.0)
+    names = ("1", "2", "3")
+    return EvaluateResult(
+        problem=problem,
+        critical_baseline=2707.0,
+        formation=circle(problem, names, "given", RADIUS),
+        compare=(circle(problem, names, "small", 500.0),),
+        warnings=(),
+    )
+
+
+def switching_transmitters() -> EvaluateResult:
+    problem = make_problem(satellites=2, prior_height_std=4.0)
+    problem = dataclasses.replace(
+        problem, radar=dataclasses.replace(problem.radar, images=ping_pong(2))
+    )
+    return EvaluateResult(
+        problem=problem,
+        critical_baseline=1353.0,
+        formation=circle(problem, ("A", "B"), "given", 400.0),
+        compare=(),
+        warnings=(),
+    )
+
+
+ODD_RESULTS = {
+    "no feasible formation": lambda: optimized(make_problem(min_separation=1e5)),
+    "no baseline": no_baseline,
+    "interrupted": interrupted,
+    "eight satellites": lambda: optimized(make_problem(satellites=8), tuple("ABCDEFGH")),
+    "one segment": lambda: optimized(make_problem(satellites=2, segments=1), ("1", "2")),
+    "no limits": lambda: optimized(make_problem(max_radius=None, min_separation=None)),
+    "given formation": evaluated,
+    "several transmitters": switching_transmitters,
+}
+
+
+def kind_of(result: object) -> str:
+    return "evaluate" if isinstance(result, EvaluateResult) else "optimize"
+
+
+def test_every_file_is_written_whole_and_nothing_else(
+    result: OptimizeResult, tmp_path: Path
+) -> None:
+    paths = write_report(result, study=study_info(), provenance=PROVENANCE, out=tmp_path / "out")
+    names = {"result.json", "height_error.csv", "formation.csv", "report.html", "report.pdf"}
+    assert {path.name for path in paths} == names
+    assert {path.name for path in (tmp_path / "out").iterdir()} == names
+    assert (tmp_path / "out" / "report.pdf").read_bytes().startswith(b"%PDF-")
+
+
+def test_a_failed_write_leaves_the_old_file_and_no_other(
+    result: OptimizeResult, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail(*_: object) -> None:
+        raise OSError("disk full")
+
+    (tmp_path / "result.json").write_text("old")
+    monkeypatch.setattr(Path, "replace", fail)
+    with pytest.raises(OSError, match="disk full"):
+        write_report(result, study=study_info(), provenance=PROVENANCE, out=tmp_path, formats=())
+    assert [path.name for path in tmp_path.iterdir()] == ["result.json"]
+    assert (tmp_path / "result.json").read_text() == "old"
+
+
+def test_same_result_gives_same_bytes(result: OptimizeResult, tmp_path: Path) -> None:
+    later = dataclasses.replace(PROVENANCE, started="2027-01-01T00:00:00+00:00", wall_s=9.0)
+    for name, provenance in (("a", PROVENANCE), ("b", PROVENANCE), ("c", later)):
+        formats = ("html", "pdf") if name != "c" else ()
+        write_report(
+            result,
+            study=study_info(),
+            provenance=provenance,
+            out=tmp_path / name,
+            formats=formats,
+        )
+    for path in (tmp_path / "a").iterdir():
+        assert path.read_bytes() == (tmp_path / "b" / path.name).read_bytes(), path.name
+    first, other = (json.loads((tmp_path / n / "result.json").read_text()) for n in "ac")
+    assert first.pop("provenance") != other.pop("provenance")
+    assert first == other
+
+
+def test_unknown_formats_and_results_are_refused(result: OptimizeResult, tmp_path: Path) -> None:
+    with pytest.raises(ValueError, match=r"'docx'.* choose of html, pdf"):
+        write_report(
+            result, study=study_info(), provenance=PROVENANCE, out=tmp_path, formats=("docx",)
+        )
+    with pytest.raises(TypeError, match="no report page for str"):
+        write_report("text", study=study_info(), provenance=PROVENANCE, out=tmp_path)
+
+
+def test_json_keeps_its_contract(result: OptimizeResult, tmp_path: Path) -> None:
+    write_report(result, study=study_info(), provenance=PROVENANCE, out=tmp_path, formats=())
+    text = (tmp_path / "result.json").read_text("utf-8")
+    assert text.endswith("}\n")
+    document = json.loads(text)
+    schema = result_schema()
+    jsonschema.Draft202012Validator.check_schema(schema)
+    jsonschema.validate(document, schema)
+    best = document["best"]
+    assert best["height_error"]["region_rms_m"] == float(result.best.height_error.region)
+    squares = sum(term**2 for term in best["height_error"]["terms_m"].values())
+    assert math.sqrt(squares) == pytest.approx(best["height_error"]["region_rms_m"], rel=1e-12)
+    assert best["pairs"][1]["images"] == ["1→1", "1→3"]
+    assert best["pairs"][1]["satellites"] == ["1", "3"]
+    assert document["certificate"] is None
+    assert document["warnings"] == ["Check the prior DEM."]
+
+
+@pytest.mark.parametrize(
+    "break_it",
+    [
+        lambda d: d.pop("history"),
+        lambda d: d.update(schema_version=2),
+        lambda d: d.update(extra=1),
+        lambda d: d["study"].update(kind="evaluate"),
+        lambda d: d["best"]["height_error"].update(region_rms_m=None),
+        lambda d: d["best"]["height_error"]["segments_m"].clear(),
+        lambda d: d["best"]["unwrapping"].update(probability=1.5),
+        lambda d: d["best"]["satellites"][0]["position_rtn_m"].pop(),
+        lambda d: d["best"]["constraints"][0].update(bound="below"),
+    ],
+)
+def test_schema_refuses_what_breaks_the_contract(result: OptimizeResult, break_it) -> None:
+    page = page_of(result)
+    from reports.json_result import result_json
+
+    text = result_json(page.json(result), study=study_info(), provenance=PROVENANCE)
+    document = copy.deepcopy(json.loads(text))
+    break_it(document)
+    with pytest.raises(jsonschema.ValidationError):
+        jsonschema.validate(document, result_schema())
+
+
+def test_csv_has_every_digit(result: OptimizeResult, tmp_path: Path) -> None:
+    write_report(result, study=study_info(), provenance=PROVENANCE, out=tmp_path, formats=())
+    rows = list(csv.DictReader(io.StringIO((tmp_path / "height_error.csv").read_text("utf-8"))))
+    assert [row["label"] for row in rows[::4]] == ["initial", "best", "wide"]
+    best = [float(row["total_m"]) for row in rows if row["label"] == "best"]
+    np.testing.assert_array_equal(best, result.best.height_error.total)
+    assert float(rows[0]["look_deg"]) == pytest.approx(23.0, rel=1e-15)
+    states = list(csv.DictReader(io.StringIO((tmp_path / "formation.csv").read_text("utf-8"))))
+    assert float(states[3]["z0_m"]) == result.best.states[0, 0]
+    assert float(states[5]["vn_m_s"]) == result.best.states[2, 5]
+
+
+@pytest.mark.parametrize("name", ODD_RESULTS)
+def test_odd_results_are_reported_in_full(name: str, tmp_path: Path) -> None:
+    odd = ODD_RESULTS[name]()
+    study = study_info(kind_of(odd))
+    write_report(odd, study=study, provenance=PROVENANCE, out=tmp_path)
+    document = json.loads((tmp_path / "result.json").read_text("utf-8"))
+    jsonschema.validate(document, result_schema())
+    page = Page((tmp_path / "report.html").read_text("utf-8"))
+    assert not re.search(r"\b(nan|NaN|inf|Infinity|None)\b", page.text)
+    for table in tmp_path.glob("*.csv"):
+        assert not re.search(r"\b(nan|inf)\b", table.read_text("utf-8"))
+
+
+def test_infeasible_result_says_what_is_broken_and_the_remedy() -> None:
+    text = Page(rendered_html(ODD_RESULTS["no feasible formation"](), study_info())).text
+    assert "No feasible formation" in text
+    assert "Broken: separation of each pair at all times." in text
+    assert "at least 100000\u00a0m is required" in text
+    assert "Remedy: allow a smaller separation" in text
+
+
+def test_interrupted_search_says_so() -> None:
+    assert "The search was interrupted" in Page(rendered_html(interrupted(), study_info())).text
+
+
+def test_unmeasured_height_gives_its_reason() -> None:
+    text = Page(rendered_html(no_baseline(), study_info())).text
+    assert "no pair has a perpendicular baseline" in text
+
+
+def test_incoherent_pairs_are_marked() -> None:
+    # Baselines up to three times 1350 m exceed the critical 2.7 km.
+    problem = make_problem()
+    wide = circle(problem, ("1", "2", "3"), "wide", 3.0 * RADIUS)
+    given = EvaluateResult(
+        problem=problem, critical_baseline=2707.0, formation=wide, compare=(), warnings=()
+    )
+    text = Page(rendered_html(given, study_info("evaluate"))).text
+    assert "not coherent" in text
+    assert "carries no information" in text
+
+
+def test_texts_of_a_study_are_data_in_html() -> None:
+    everything = " ".join(ATTACKS)
+    problem = make_problem(satellites=len(ATTACKS))
+    changes = dict.fromkeys(("name", "description", "source_text", "effective"), everything)
+    attacked = dataclasses.replace(optimized(problem, ATTACKS), warnings=(everything,))
+    harmless = dataclasses.replace(optimized(problem, tuple("abcde")), warnings=("text",))
+    page = Page(rendered_html(attacked, study_info(**changes)))
+    plain = Page(rendered_html(harmless, study_info(effective="x")))
+    # Every attack is there as text, and not one element more than without them.
+    assert all(page.text.count(attack) > 5 for attack in ATTACKS)
+    assert [tag for tag, _ in page.tags] == [tag for tag, _ in plain.tags]
+
+
+def test_texts_of_a_study_are_data_in_pdf(monkeypatch: pytest.MonkeyPatch) -> None:
+    import typst
+
+    seen: dict[str, str] = {}
+    compile_ = typst.compile
+
+    def spy(path: str, **options: object) -> bytes:
+        folder = Path(path).parent
+        seen["template"] = Path(path).read_text("utf-8")
+        seen["data"] = (folder / "document.json").read_text("utf-8")
+        return compile_(path, **options)
+
+    monkeypatch.setattr(typst, "compile", spy)
+    everything = " ".join(ATTACKS)
+    found = dataclasses.replace(
+        optimized(make_problem(), ATTACKS[:3]), warnings=ATTACKS, compare=()
+    )
+    changes = dict.fromkeys(("name", "description", "source_text", "effective"), everything)
+    document = page_of(found).document(found, study_info(**changes), PROVENANCE)
+    assert pdf_bytes(document).startswith(b"%PDF-")
+    assert not any(attack in seen["template"] for attack in ATTACKS)
+    data = json.loads(seen["data"])
+    assert data["title"] == everything
+    evaluated_as_markup = [
+        block["math"]
+        for section in data["sections"]
+        for block in section["blocks"]
+        if block["kind"] == "equation"
+    ]
+    assert evaluated_as_markup
+    assert not any(attack in math_ for attack in ATTACKS for math_ in evaluated_as_markup)
+    # The template evaluates nothing but the equations.
+    assert seen["template"].count("eval(") == 1
+    assert "@preview" not in seen["template"]
+
+
+def test_html_needs_no_network_and_is_accessible(result: OptimizeResult) -> None:
+    text = rendered_html(result, study_info())
+    page = Page(text)
+    policy = next(a["content"] for t, a in page.tags if a.get("http-equiv"))
+    assert policy is not None
+    assert "default-src 'none'" in policy
+    assert "http" not in policy
+    for tag, attributes in page.tags:
+        for name in ("src", "href", "data", "action", "srcset", "poster"):
+            value = attributes.get(name) or ""
+            if value.startswith("https://doi.org/"):
+                assert tag == "a"
+            else:
+                assert value == "" or value.startswith(("data:", "#")), (tag, name, value[:60])
+        if tag == "img":
+            assert attributes["alt"]
+    style = text[text.index("<style>") : text.index("</style>")]
+    assert "url(" not in style
+    assert "@import" not in style
+    assert ("html", {"lang": "en"}) in page.tags
+    assert all(a.get("scope") for t, a in page.tags if t == "th")
+    identifiers = [a["id"] for _, a in page.tags if "id" in a]
+    assert len(identifiers) == len(set(identifiers))
+
+
+def test_verdict_does_not_compare_with_a_formation_that_breaks_limits() -> None:
+    problem = make_problem(min_unwrapping_probability=0.99, prior_height_std=4.0)
+    found = optimized(problem)
+    assert not found.initial.feasible
+    text = Page(rendered_html(found, study_info())).text
+    assert "times as much" not in text
+
+
+def test_figures_leave_matplotlib_as_it_was_and_are_repeatable(result: OptimizeResult) -> None:
+    import matplotlib as mpl
+
+    before = dict(mpl.rcParams)
+    first, second = convergence_figure(result.search), convergence_figure(result.search)
+    assert dict(mpl.rcParams) == before
+    assert first == second
+    assert b"<dc:date>" not in first
+
+
+def test_names_are_not_read_as_mathematics_in_figures() -> None:
+    found = optimized(make_problem(), (r"$\frac{1$", "_hidden", "$"))
+    assert "svg" in rendered_html(found, study_info())
+
+
+def test_strong_and_symbol_are_the_only_marked_parts() -> None:
+    assert isinstance(Strong("a"), str)
+    assert str(Symbol("B_crit")) == "B_crit"
+
+
+def test_import_is_light() -> None:
+    heavy = ["matplotlib", "pandas", "plotly", "typst", "latex2mathml", "optimize", "numpy"]
+    code = f"import sys, reports; print([m for m in {heavy!r} if m in sys.modules])"
+    found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert found.stdout.strip() == "[]"
