@@ -1,0 +1,201 @@
+"""The command `formation-opt`.
+
+Exit codes: 0 done, 2 the input is wrong, 3 no feasible design was found, 130 interrupted.
+Heavy packages are imported where they are used, so that `--help` answers at once.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from . import __version__
+from .one_place import intruder
+
+DONE, WRONG_INPUT, INFEASIBLE, INTERRUPTED = 0, 2, 3, 130
+FORMATS = ("html", "pdf")
+
+_DESCRIPTION = """\
+Design and optimize a distributed-InSAR formation: reads a study (YAML), runs it and writes a
+report with figures (HTML, PDF), result.json and tables (CSV).
+"""
+
+_EPILOG = """\
+examples:
+  formation-opt configs/three_sat.yaml       run a study file
+  formation-opt three_sat                    run a shipped example
+  formation-opt --new three_sat > my.yaml    start a study of your own
+
+exit codes: 0 done, 2 wrong input, 3 no feasible design found, 130 interrupted
+"""
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command.
+
+    Parameters
+    ----------
+    arguments : of the command line; those of the process if None.
+
+    Returns
+    -------
+    The exit code.
+    """
+    shadow = intruder(Path(__file__).resolve().parent.parent)
+    if shadow is not None:
+        return _fail(shadow)
+    parser = _parser()
+    options = parser.parse_args(arguments)
+    try:
+        if options.list:
+            return _list()
+        if options.schema:
+            return _schema()
+        if options.new is not None:
+            return _new(options.new)
+        if options.study is None:
+            parser.print_usage(sys.stderr)
+            return _fail("give a study: a YAML file, or an example's name (see --list)")
+        return _run(options)
+    except KeyboardInterrupt:
+        print("formation-opt: interrupted", file=sys.stderr)  # noqa: T201
+        return INTERRUPTED
+    except BrokenPipeError:
+        # The reader of our output (head, a pager) has left: nothing more to say to it.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return DONE
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="formation-opt",
+        description=_DESCRIPTION,
+        epilog=_EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument(
+        "study",
+        nargs="?",
+        metavar="STUDY",
+        help="a study file (with a '/' or ending in .yaml), or the name of a shipped example",
+    )
+    parser.add_argument(
+        "--out", type=Path, metavar="DIR", help="output folder (default: out/<study name>)"
+    )
+    parser.add_argument(
+        "--seed", type=_seed, metavar="N", help="random seed, instead of the study's"
+    )
+    parser.add_argument(
+        "--format",
+        type=_formats,
+        default=FORMATS,
+        metavar="html,pdf",
+        help="report formats, or 'none' (result.json and the tables are always written)",
+    )
+    parser.add_argument(
+        "--check", action="store_true", help="only check that the study is valid, and stop"
+    )
+    parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
+    parser.add_argument("--list", action="store_true", help="list the shipped examples")
+    parser.add_argument("--new", metavar="NAME", help="print a shipped example to start from")
+    parser.add_argument(
+        "--schema", action="store_true", help="print the JSON schema of a study file"
+    )
+    parser.add_argument("--version", action="version", version=f"formation-opt {__version__}")
+    return parser
+
+
+def _seed(text: str) -> int:
+    if not text.isdecimal():
+        raise argparse.ArgumentTypeError(f"{text!r} must be a whole number, 0 or above")
+    return int(text)
+
+
+def _formats(text: str) -> tuple[str, ...]:
+    if text.strip() == "none":
+        return ()
+    formats = tuple(part.strip() for part in text.split(","))
+    for name in formats:
+        if name not in FORMATS:
+            raise argparse.ArgumentTypeError(
+                f"{name!r} is no report format; choose of {', '.join(FORMATS)}, or none"
+            )
+    return formats
+
+
+def _fail(message: str, code: int = WRONG_INPUT) -> int:
+    print(f"formation-opt: {message}", file=sys.stderr)  # noqa: T201
+    return code
+
+
+def _list() -> int:
+    from configs import example_names, example_path, load_study
+
+    for name in example_names():
+        first_sentence = load_study(example_path(name)).study.description.split(". ")[0]
+        print(f"{name:20} {first_sentence.rstrip('.')}")  # noqa: T201
+    return DONE
+
+
+def _new(name: str) -> int:
+    from configs import StudyError, example_text
+
+    try:
+        print(example_text(name), end="")  # noqa: T201
+    except StudyError as error:
+        return _fail(str(error))
+    return DONE
+
+
+def _schema() -> int:
+    import json
+
+    from configs import json_schema
+
+    print(json.dumps(json_schema(), indent=2, ensure_ascii=False))  # noqa: T201
+    return DONE
+
+
+def _run(options: argparse.Namespace) -> int:
+    from configs import StudyError, example_path, load_study
+
+    name: str = options.study
+    try:
+        is_file = os.sep in name or "/" in name or name.endswith((".yaml", ".yml"))
+        loaded = load_study(Path(name) if is_file else example_path(name))
+    except StudyError as error:
+        return _fail(str(error))
+    if options.check:
+        if not options.quiet:
+            print(f"{options.study}: a valid study of kind {loaded.study.kind}")  # noqa: T201
+        return DONE
+    from .execution import OutputError, execute
+
+    out = options.out if options.out is not None else Path("out") / loaded.study.name
+    try:
+        outcome = execute(
+            loaded,
+            out=out,
+            seed=options.seed,
+            formats=options.format,
+            quiet=options.quiet,
+            command=_command(options),
+        )
+    except OutputError as error:
+        return _fail(str(error))
+    if outcome.interrupted:
+        return _fail("interrupted; the report holds the best so far", INTERRUPTED)
+    if outcome.blocked is not None:
+        return _fail(f"no feasible design was found. {outcome.blocked}", INFEASIBLE)
+    return DONE
+
+
+def _command(options: argparse.Namespace) -> str:
+    """The command that repeats this run, whatever the folder it is started in."""
+    parts = ["formation-opt", str(options.study)]
+    if options.seed is not None:
+        parts += ["--seed", str(options.seed)]
+    return " ".join(parts)

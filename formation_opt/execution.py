@@ -1,0 +1,102 @@
+"""Executes a loaded study: runs its kind, and writes and prints what came of it."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+import time
+from collections.abc import Collection
+from datetime import UTC, datetime
+from pathlib import Path
+
+from configs import LoadedStudy
+from reports import Provenance, StudyInfo, write_report
+
+from . import provenance, terminal
+from .kinds import RUNS
+from .runs import Outcome
+
+
+class OutputError(Exception):
+    """The output folder cannot be written; the message says why and what to do."""
+
+
+def execute(
+    loaded: LoadedStudy,
+    *,
+    out: Path,
+    seed: int | None,
+    formats: Collection[str],
+    quiet: bool,
+    command: str,
+) -> Outcome:
+    """Run a study and write its report.
+
+    Parameters
+    ----------
+    loaded : the study with its source.
+    out : output folder, made if it does not exist.
+    seed : instead of the study's, if given.
+    formats : of the report.
+    quiet : whether to print nothing.
+    command : the command that repeats the run.
+
+    Returns
+    -------
+    Outcome
+
+    Raises
+    ------
+    OutputError
+        If the folder cannot be written, before anything is computed or when the disk fills up.
+    """
+    study = loaded.study
+    _make_writable(out)
+    started, clock = datetime.now(UTC), time.perf_counter()
+    with terminal.progress(seed=seed, quiet=quiet) as options:
+        outcome = RUNS[study.kind](study, options)
+    info = StudyInfo(
+        name=study.name,
+        kind=study.kind,
+        description=study.description,
+        source_text=loaded.source_text,
+        config_sha256=loaded.sha256,
+        orbit_altitude=outcome.orbit.altitude,
+        inclination=outcome.orbit.inclination,
+    )
+    how = Provenance(
+        version=provenance.program(),
+        seed=outcome.seed,
+        python=provenance.python(),
+        platform=provenance.machine(),
+        packages=provenance.packages(),
+        started=started.isoformat(timespec="seconds"),
+        wall_s=time.perf_counter() - clock,
+        evaluations=outcome.evaluations,
+        command=command,
+    )
+    try:
+        paths = write_report(outcome.result, study=info, provenance=how, out=out, formats=formats)
+    except OSError as error:
+        raise OutputError(_unwritable(out, error)) from error
+    if not quiet:
+        terminal.summary(outcome.shown, paths, seconds=time.perf_counter() - clock)
+    return outcome
+
+
+def _make_writable(out: Path) -> None:
+    """Find out before the search, not after it, that the results have a place."""
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+        handle, name = tempfile.mkstemp(dir=out, prefix=".formation-opt.")
+        os.close(handle)
+        Path(name).unlink()
+    except OSError as error:
+        raise OutputError(_unwritable(out, error)) from error
+
+
+def _unwritable(out: Path, error: OSError) -> str:
+    return (
+        f"the output folder {out} cannot be written: {error.strerror or error}; "
+        "choose another with --out"
+    )

@@ -1,0 +1,30 @@
+"""How a result came about, so that anyone can repeat it."""
+
+from __future__ import annotations
+
+import platform
+from importlib.metadata import version
+
+from . import __version__
+
+_NUMERIC_PACKAGES = ("numpy", "scipy", "deap")
+
+
+def packages() -> dict[str, str]:
+    """Versions of the packages that the numbers depend on."""
+    return {name: version(name) for name in _NUMERIC_PACKAGES}
+
+
+def python() -> str:
+    """Version of Python."""
+    return platform.python_version()
+
+
+def machine() -> str:
+    """System and processor architecture."""
+    return f"{platform.system()} {platform.machine()}"
+
+
+def program() -> str:
+    """Version of formation-opt."""
+    return __version__

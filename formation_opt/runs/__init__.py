@@ -1,0 +1,5 @@
+"""One module for each kind of study: from the validated study to its result."""
+
+from .outcome import Options, Outcome
+
+__all__ = ["Options", "Outcome"]

@@ -1,0 +1,78 @@
+"""Runs a study of kind `optimize`: search, then assess what was found."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from configs import OptimizeStudy, build_optimize
+from optimize import Assessment, OptimizeResult, assess, findings, search
+
+from .outcome import Options, Outcome
+
+
+def run(study: OptimizeStudy, options: Options) -> Outcome:
+    """Search for the best formation of a study.
+
+    Parameters
+    ----------
+    study : the validated study.
+    options : of the command line.
+    """
+    setup = build_optimize(study)
+    seed = study.search.seed if options.seed is None else options.seed
+    options.on_start(setup.settings.genetic.generations)
+    found = search(
+        setup.problem,
+        setup.space,
+        settings=setup.settings,
+        rng=np.random.default_rng(seed),
+        start=None if setup.initial_design is None else setup.initial_design[None],
+        on_generation=options.on_generation,
+    )
+    names = setup.space.names
+    initial = assess(setup.problem, setup.initial_states, label="initial", names=names)
+    best = assess(setup.problem, setup.space.states(found.design), label="best", names=names)
+    warnings = list(findings(setup.problem, best))
+    blocked = None if best.feasible else _blocking(best)
+    if blocked is not None:
+        warnings.insert(0, f"No feasible formation was found. {blocked}")
+    if found.interrupted:
+        warnings.insert(
+            0,
+            f"The search was interrupted after {len(found.history)} generations: this is the best "
+            "so far, not the best there is.",
+        )
+    result = OptimizeResult(
+        problem=setup.problem,
+        critical_baseline=setup.critical_baseline,
+        initial=initial,
+        best=best,
+        compare=tuple(
+            assess(setup.problem, states, label=label, names=members)
+            for label, members, states in setup.compare
+        ),
+        search=found,
+        warnings=tuple(warnings),
+    )
+    return Outcome(
+        result=result,
+        orbit=setup.orbit,
+        seed=seed,
+        evaluations=found.evaluations,
+        shown=(initial, best),
+        blocked=blocked,
+        interrupted=found.interrupted,
+    )
+
+
+def _blocking(best: Assessment) -> str:
+    """Which limits the least bad formation breaks, by how much, and what may help."""
+    broken = [
+        f"{report.limit.name}: {report.value:.4g} {report.limit.unit}".rstrip()
+        + f" against a limit of {report.limit.value:.4g} {report.limit.unit}".rstrip()
+        + f", short by {-report.margin:.4g} {report.limit.unit}".rstrip()
+        + f"; {report.limit.remedy}."
+        for report in best.constraints
+        if not report.satisfied
+    ]
+    return " ".join(broken) or "No design measures a height at all."
