@@ -1,0 +1,165 @@
+"""Problems that the benchmarks share; those of the tests, built anew so that neither needs the other."""
+
+from __future__ import annotations
+
+import dataclasses
+import tomllib
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from formation import Orbit, ground_track_circular
+from insar import ErrorBudget, ErrorSource, Radar, Scene, SharedBy, one_transmitter
+from optimize import Constraints, DesignSpace, GeneticSettings, Problem
+
+MEAN_MOTION = Orbit.circular(altitude=514e3, inclination=np.deg2rad(97.44)).mean_motion
+
+_PUBLISHED = Path(__file__).parents[1] / "tests" / "published" / "li2009.toml"
+
+REALISTIC_LIMITS = Constraints(
+    max_radius=1353.66,  # half of the critical baseline
+    min_separation=100.0,
+    min_unwrapping_probability=0.99,
+    prior_height_std=4.0,
+)
+
+
+class Landscape(NamedTuple):
+    """A search problem with the settings that a study of it would use.
+
+    Attributes
+    ----------
+    name : in words.
+    problem, space : what is searched.
+    genetic : settings of the genetic algorithm.
+    best_known : the smallest feasible region height error known [m].
+    """
+
+    name: str
+    problem: Problem
+    space: DesignSpace
+    genetic: GeneticSettings
+    best_known: float
+
+
+def realistic_problem(
+    satellites: int,
+    *,
+    errors: ErrorBudget | None = None,
+    constraints: Constraints = REALISTIC_LIMITS,
+) -> tuple[Problem, DesignSpace]:
+    """X band, 10 segments at broadside, 1 mm, filtering, joint weighting, unwrapping from 4 m.
+
+    Parameters
+    ----------
+    satellites : number N of satellites.
+    errors : another error budget than the realistic one.
+    constraints : the limits.
+    """
+    scene = Scene.broadside_strip(
+        times=np.linspace(0.0, 10.0, 10),
+        look_angle=np.deg2rad(23),
+        altitude=514e3,
+        earth_radius=6_378_137.0,
+    )
+    problem = Problem(
+        mean_motion=MEAN_MOTION,
+        scene=scene,
+        radar=_radar(satellites, looks=16.0),
+        errors=realistic_errors() if errors is None else errors,
+        constraints=constraints,
+    )
+    return problem, _space(satellites, radius=1353.66, signs=(1, -1))
+
+
+def realistic_errors() -> ErrorBudget:
+    """1 mm per satellite and axis, 1 m on the ground in azimuth, 1 cm in range."""
+    return ErrorBudget(
+        position=ErrorSource(0.001, SharedBy.SATELLITE),
+        azimuth=ErrorSource(1.0 / 562.5e3, SharedBy.ALL),
+        range=ErrorSource(0.01, SharedBy.ALL),
+    )
+
+
+def paper_problem(
+    satellites: int, *, errors: ErrorBudget, constraints: Constraints
+) -> tuple[Problem, DesignSpace]:
+    """The radar, the scene (Table 2) and the ground-track family of Li 2009.
+
+    Parameters
+    ----------
+    satellites : number N of satellites.
+    errors : the error budget.
+    constraints : the limits.
+    """
+    table = tomllib.loads(_PUBLISHED.read_text(encoding="utf-8"))["table2"]
+    scene = Scene.flat_earth(
+        times=np.arange(1.0, 11.0),
+        slant_range=np.array(table["slant_range_km"]) * 1e3,
+        look_angle=np.deg2rad(table["look_deg"]),
+        azimuth=np.deg2rad(table["azimuth_deg"]),
+    )
+    problem = Problem(
+        mean_motion=MEAN_MOTION,
+        scene=scene,
+        radar=_radar(satellites, looks=1.0),
+        errors=errors,
+        constraints=constraints,
+    )
+    return problem, _space(satellites, radius=1211.2, signs=(1,))
+
+
+def landscapes(*, generations: int | None = None) -> tuple[Landscape, ...]:
+    """The landscapes of `search.py`, with the settings of the shipped studies.
+
+    Parameters
+    ----------
+    generations : instead of the shipped number.
+    """
+    shared = dataclasses.replace(
+        ErrorBudget.li2009(),
+        azimuth=ErrorSource(np.deg2rad(0.01), SharedBy.ALL),
+        phase_std=0.316,
+    )
+    limits = Constraints(max_radius=1211.2, min_separation=100.0)
+
+    def genetic(shipped: int) -> GeneticSettings:
+        return GeneticSettings(population=60, generations=generations or shipped)
+
+    return (
+        Landscape(
+            "realistic, 3 satellites", *realistic_problem(3), genetic(100), best_known=0.25289517
+        ),
+        Landscape(
+            "realistic, 4 satellites", *realistic_problem(4), genetic(150), best_known=0.11464157
+        ),
+        # No decorrelation: the optimum is known by proof (a convex certificate), to six decimals.
+        Landscape(
+            "dumbbell, 4 satellites",
+            *paper_problem(4, errors=shared, constraints=limits),
+            genetic(100),
+            best_known=0.813011,
+        ),
+    )
+
+
+def _radar(satellites: int, *, looks: float) -> Radar:
+    return Radar(
+        wavelength=0.031,
+        slant_range_resolution=3.0,
+        snr=10.0,
+        looks=looks,
+        images=one_transmitter(satellites),
+    )
+
+
+def _space(satellites: int, *, radius: float, signs: tuple[int, ...]) -> DesignSpace:
+    return DesignSpace(
+        names=tuple(f"sat {index + 1}" for index in range(satellites)),
+        family=ground_track_circular,
+        mean_motion=MEAN_MOTION,
+        max_offset=radius / 2.0,
+        max_rate=radius / 2.0 * MEAN_MOTION,
+        signs=signs,
+    )
