@@ -157,7 +157,7 @@ def plain_region_error(problem: Problem, state: Array) -> float:
     g, t = gamma[:, None], theta[:, None]
     b_theta = bx * np.cos(g) * np.cos(t) + by * np.sin(g) * np.cos(t) + bz * np.sin(t)
     b_gamma = (by * np.cos(g) - bx * np.sin(g)) * np.sin(t)
-    per_path = (scene.slant_range * np.sin(theta))[:, None] / b_theta  # dh per metre of path
+    per_path = (scene.slant_range * np.sin(theta))[:, None] / b_theta  # dh per meter of path
     pairs = np.arange(len(first))
     incidence = np.zeros((len(pairs), len(state)))
     incidence[pairs, first], incidence[pairs, second] = -1.0, 1.0

@@ -116,7 +116,7 @@ class RadarBlock(Block):
         if len({tuple(sorted(image)) for image in images}) < 2:
             raise wrong(
                 ("images",),
-                "are two images with one phase centre, between the same satellites",
+                "are two images with one phase center, between the same satellites",
                 "add an image with another transmitter or receiver",
             )
 

@@ -15,7 +15,10 @@ from .base import wrong
 from .blocks import RadarBlock
 from .formations import ComparedFormation, RadialStart, Satellite
 from .messages import KeyPath, did_you_mean, show
-from .scenes import StripBlock, check_slope
+from .scenes import SceneBlock, StripBlock, check_slope
+
+MAX_ENTRIES = 50_000_000
+"""Entries of the largest array of a run; a few such arrays of 0.4 GB live at a time."""
 
 _GRAZING = math.radians(89.0)
 
@@ -117,6 +120,23 @@ def check_drift(satellites: Sequence[Satellite], orbit: Orbit, at: KeyPath) -> N
         f"{NEGLIGIBLE_DRIFT:g} m is the limit",
         f"the T component of a drift-free velocity is -2 n R, here {drift_free:.6f}",
     )
+
+
+def check_size(radar: RadarBlock, scene: SceneBlock, satellites: int, population: int) -> None:
+    """The arrays of one generation fit into the memory of an ordinary computer."""
+    segments = scene.given.count
+    if isinstance(radar.images, tuple):
+        images = len(radar.images)
+    else:
+        images = satellites**2 if radar.images == "ping_pong" else satellites
+    if population * segments * images**2 > MAX_ENTRIES:
+        raise wrong(
+            ("scene",),
+            f"has {segments} segments, which with {images} images and {population} formations at a "
+            f"time is too large for memory: formations x segments x images squared may reach "
+            f"{MAX_ENTRIES:.0e}",
+            "take fewer segments, or a smaller search.population",
+        )
 
 
 def check_labels(compared: Sequence[ComparedFormation]) -> None:

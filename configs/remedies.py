@@ -13,17 +13,17 @@ from .schema import Schema, choices
 _SPEED_OF_LIGHT = 299_792_458.0
 
 _Guess = tuple[str, Callable[[float], float]]
-_MILLI = ("millimetres", lambda value: value / 1e3)
+_MILLI = ("millimeters", lambda value: value / 1e3)
 _GUESSES: dict[str, list[_Guess]] = {
     "wavelength_m": [
         _MILLI,
-        ("centimetres", lambda value: value / 1e2),
+        ("centimeters", lambda value: value / 1e2),
         ("GHz", lambda value: _SPEED_OF_LIGHT / (1e9 * value)),
         ("Hz", lambda value: _SPEED_OF_LIGHT / value),
     ],
     "_m_s": [("mm/s", lambda value: value / 1e3)],
-    "_km": [("metres", lambda value: value / 1e3)],
-    "_m": [_MILLI, ("kilometres", lambda value: value * 1e3)],
+    "_km": [("meters", lambda value: value / 1e3)],
+    "_m": [_MILLI, ("kilometers", lambda value: value * 1e3)],
     "_deg": [("radians", math.degrees)],
     "_db": [("linear scale", lambda value: 10.0 * math.log10(value))],
     "_s": [("milliseconds", lambda value: value / 1e3)],

@@ -43,6 +43,11 @@ class StripBlock(Block):
         default=0.0, description="Slope of the terrain in range, positive towards the radar."
     )
 
+    @property
+    def count(self) -> int:
+        """Number of segments."""
+        return self.segments
+
 
 class TableBlock(Block):
     """A scene given segment by segment: lists of equal length."""
@@ -75,15 +80,19 @@ class TableBlock(Block):
         default=0.0, description="Slope of the terrain in range, positive towards the radar."
     )
 
+    @property
+    def count(self) -> int:
+        """Number of segments."""
+        return len(self.times_s)
+
     @model_validator(mode="after")
     def _check(self) -> Self:
-        count = len(self.times_s)
         for key in ("slant_range_km", "look_deg", "azimuth_deg", "incidence_deg"):
             column = getattr(self, key)
-            if column is not None and len(column) != count:
+            if column is not None and len(column) != self.count:
                 raise wrong(
                     (key,),
-                    f"has {len(column)} entries and times_s has {count}",
+                    f"has {len(column)} entries and times_s has {self.count}",
                     "give every column one entry a segment",
                 )
         for segment, azimuth in enumerate(self.azimuth_deg):

@@ -17,6 +17,7 @@ from .checks import (
     check_labels,
     check_members,
     check_names,
+    check_size,
     check_strip,
 )
 from .formations import ComparedFormation, EvaluatedFormation, SearchedFormation
@@ -83,6 +84,7 @@ class OptimizeStudy(FormationStudy):
     def _check(self) -> Self:
         names = self.formation.names
         self._check_common(names)
+        check_size(self.radar, self.scene, len(names), self.search.population)
         if self.formation.initial is not None:
             check_members(self.formation.initial, names, ("formation", "initial"))
         return self
@@ -101,6 +103,7 @@ class EvaluateStudy(FormationStudy):
     def _check(self) -> Self:
         names = self.formation.names
         self._check_common(names)
+        check_size(self.radar, self.scene, len(names), 1)
         check_members(self.formation.satellites, names, ("formation", "satellites"))
         check_drift(self.formation.satellites, self.reference_orbit, ("formation", "satellites"))
         return self

@@ -1,6 +1,6 @@
 """The two families of circular relative orbits of Li 2009.
 
-Both are drift-free and centred; the cross-track motion is k times the radial motion and in phase
+Both are drift-free and centered; the cross-track motion is k times the radial motion and in phase
 with it, so a satellite is fixed by its radial offset and rate (z0, ż0) alone:
 
     R = z0 cos nt + (ż0/n) sin nt,   T = (2ż0/n) cos nt − 2 z0 sin nt,   N = k R.
@@ -55,7 +55,7 @@ def space_circular(
 
     References
     ----------
-    Li 2009 eq. (11), whose radial row is garbled in print.
+    Li 2009 eq. (11), whose radial row carries a stray x0 in print.
 
     Examples
     --------
@@ -89,7 +89,7 @@ def ground_track_circular(
 
     References
     ----------
-    Li 2009 eq. (12), whose radial row is garbled in print.
+    Li 2009 eq. (12), whose radial row carries a stray x0 in print.
     """
     return _circular(z0, zdot0, 2.0, mean_motion=mean_motion, sign=sign)
 
@@ -139,8 +139,9 @@ def equally_spaced(count: int, *, radius: float, mean_motion: float) -> tuple[Ar
 
     References
     ----------
-    Li 2009 section 4, the unoptimised formation, for ``count=3, radius=1211.2``.
+    Li 2009 section 4, the unoptimized formation, for ``count=3, radius=1211.2``.
     """
     phase = 2.0 * np.pi * np.arange(count) / count
     amplitude = radius / 2.0
-    return amplitude * np.cos(phase), -amplitude * mean_motion * np.sin(phase)
+    # Subtracted from 0.0, lest the first rate be −0.0.
+    return amplitude * np.cos(phase), 0.0 - amplitude * mean_motion * np.sin(phase)

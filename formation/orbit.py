@@ -14,7 +14,7 @@ class Orbit:
 
     Parameters
     ----------
-    semi_major_axis : scalar — distance from the centre of the Earth [m].
+    semi_major_axis : scalar — distance from the center of the Earth [m].
     inclination : scalar — angle between the orbit and the equator, 0 to π [rad].
 
     Raises
@@ -37,7 +37,7 @@ class Orbit:
         ):
             raise ValueError(
                 f"semi_major_axis = {self.semi_major_axis!r} m must be a finite number above the "
-                f"Earth's radius, {EARTH_EQUATORIAL_RADIUS:.0f} m; give metres from the centre of "
+                f"Earth's radius, {EARTH_EQUATORIAL_RADIUS:.0f} m; give meters from the center of "
                 "the Earth, or use Orbit.circular(altitude=...)"
             )
         if not 0.0 <= self.inclination <= math.pi:

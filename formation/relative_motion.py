@@ -31,8 +31,8 @@ def transition_matrix(times: ArrayLike, *, mean_motion: float) -> Array:
 
     References
     ----------
-    Clohessy and Wiltshire 1960, doi:10.2514/8.8704. The printed radial rows of Li 2009
-    eqs (10)-(12) are garbled; this is derived from the equations of motion.
+    Clohessy and Wiltshire 1960, doi:10.2514/8.8704. The radial rows of Li 2009
+    eqs (11) and (12) carry a stray x0; this is derived from the equations of motion.
     """
     time = np.asarray(times, dtype=np.float64)
     n = float(mean_motion)
@@ -128,7 +128,7 @@ def centered_state(
     *,
     mean_motion: float,
 ) -> Array:
-    """Drift-free state whose relative orbit is centred on the reference satellite.
+    """Drift-free state whose relative orbit is centered on the reference satellite.
 
     Parameters
     ----------
@@ -149,7 +149,7 @@ def centered_state(
     return np.stack(
         [
             r,
-            2.0 * rdot / mean_motion,  # centred: the orbit's mean T is zero
+            2.0 * rdot / mean_motion,  # centered: the orbit's mean T is zero
             cross,
             rdot,
             -2.0 * mean_motion * r,  # drift-free: equal energies

@@ -33,7 +33,7 @@ def satellite_pairs(count: int) -> NDArray[np.intp]:
 def min_separation(states: ArrayLike, *, mean_motion: float) -> Array:
     """Smallest distance of each pair over one revolution, at any time and not at samples of it.
 
-    The relative motion of a pair is p(τ) = c + u cos τ + w sin τ with τ = nt. When it is centred
+    The relative motion of a pair is p(τ) = c + u cos τ + w sin τ with τ = nt. When it is centered
     (c = 0, as in both circular families) the smallest squared distance is the smaller eigenvalue
     of the Gram matrix of u and w. With an along-track offset, the stationary points are the roots
     of a quartic in exp(iτ).
@@ -66,7 +66,7 @@ def min_separation(states: ArrayLike, *, mean_motion: float) -> Array:
     mean_square = 0.5 * (_dot(cosine, cosine) + _dot(sine, sine))
     second_harmonic = 0.5 * (_dot(cosine, cosine) - _dot(sine, sine)) - 1j * _dot(cosine, sine)
     first_harmonic = 2.0 * _dot(center, cosine) - 2j * _dot(center, sine)
-    # Rounding leaves 1e-16 of the satellites' own coordinates as an offset of a centred pair.
+    # Rounding leaves 1e-16 of the satellites' own coordinates as an offset of a centered pair.
     if np.any(np.abs(center) > 1e-12 * np.max(np.abs(state[..., :3]), initial=0.0)):
         squared = _offset_minimum(center, mean_square, first_harmonic, second_harmonic)
     else:
@@ -75,7 +75,7 @@ def min_separation(states: ArrayLike, *, mean_motion: float) -> Array:
 
 
 def _ellipse(relative: Array, n: float) -> tuple[Array, Array, Array]:
-    """Centre, cosine and sine vectors (..., 3) of drift-free relative states (..., 6)."""
+    """Center, cosine and sine vectors (..., 3) of drift-free relative states (..., 6)."""
     r, t, cross, rdot, _, cross_rate = np.moveaxis(relative, -1, 0)
     zero = np.zeros_like(r)
     center = np.stack([zero, t - 2.0 * rdot / n, zero], axis=-1)

@@ -44,7 +44,7 @@ def progress(*, seed: int | None, quiet: bool) -> Iterator[Options]:
             bar.update(task, total=generations + 1)
 
         def advance(record: GenerationRecord) -> None:
-            best = f"best {_metres(record.best)}" if np.isfinite(record.best) else "none feasible"
+            best = f"best {_meters(record.best)}" if np.isfinite(record.best) else "none feasible"
             bar.update(task, advance=1, best=best)
 
         yield Options(seed=seed, on_start=start, on_generation=advance)
@@ -65,8 +65,8 @@ def summary(shown: Sequence[Assessment], paths: Sequence[Path], *, seconds: floa
     for assessment in shown:
         table.add_column(assessment.label, justify="right")
     rows = [
-        ("height error, total (RMS)", [_metres(float(a.height_error.region)) for a in shown]),
-        ("height error, relative", [_metres(float(a.height_error.relative_region)) for a in shown]),
+        ("height error, total (RMS)", [_meters(float(a.height_error.region)) for a in shown]),
+        ("height error, relative", [_meters(float(a.height_error.relative_region)) for a in shown]),
     ]
     if all(a.unwrapping is not None for a in shown):
         rows.append(
@@ -84,7 +84,7 @@ def summary(shown: Sequence[Assessment], paths: Sequence[Path], *, seconds: floa
     console.print(f"\n{folder}: {names}  ({seconds:.1f} s)", markup=False)
 
 
-def _metres(value: float) -> str:
+def _meters(value: float) -> str:
     return f"{value:.3f} m" if np.isfinite(value) else "none"
 
 

@@ -209,7 +209,7 @@ def pair_geometry(
 
 
 def image_projections(positions: ArrayLike, direction: Sensitivity, *, radar: Radar) -> Array:
-    """Project the phase centres p_tx + p_rx on the height and azimuth directions.
+    """Project the phase centers p_tx + p_rx on the height and azimuth directions.
 
     Parameters
     ----------

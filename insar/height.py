@@ -16,7 +16,7 @@ from .scene import Scene
 Array = NDArray[np.float64]
 
 _NO_WAVENUMBER = 1e-15
-"""Vertical wavenumber that counts as none [rad/m]: a picometre of baseline at 500 km."""
+"""Vertical wavenumber that counts as none [rad/m]: a picometer of baseline at 500 km."""
 
 _NO_INFORMATION = 1e-60
 """Height information that counts as none [1/m²], far from overflow when inverted and squared."""
@@ -147,7 +147,11 @@ def height_error_of(
         residual = kz - _product(factor, amplitude)
         splits = np.cumsum([model.nuisance[name].shape[-1] for name in sources])[:-1]
         shared = dict(zip(sources, np.split(amplitude, splits, axis=-1), strict=True))
-    fisher = np.maximum(np.sum(weighted * residual, axis=-1), 0.0)
+    # J = kzᵀX(kz − Fa) as the sum of what each source leaves, (kz − Fa)ᵀX(kz − Fa) + aᵀa: the same
+    # number, without the cancellation where shared errors exceed the noise by far.
+    variance = _noise_variances(model, residual, radar)
+    variance |= {name: np.sum(part**2, axis=-1) for name, part in shared.items()}
+    fisher = sum(variance.values(), start=np.zeros(()))
 
     status = np.where(
         np.max(np.abs(kz), axis=-1) < _NO_WAVENUMBER,
@@ -157,8 +161,6 @@ def height_error_of(
     measured = status == HeightStatus.MEASURED
     inverse = 1.0 / np.where(measured, fisher, 1.0)
 
-    variance = _noise_variances(model, residual, radar)
-    variance |= {name: np.sum(part**2, axis=-1) for name, part in shared.items()}
     squared = {
         name: np.where(measured, value * inverse**2, np.inf) for name, value in variance.items()
     }
@@ -182,7 +184,8 @@ def _noise_variances(model: PhaseModel, residual: Array, radar: Radar) -> dict[s
     """Contributions, times J², of the errors inside the information matrix."""
     if not model.pair_variance:
         product = _product(model.information, residual)
-        return {"phase": np.sum(residual * product, axis=-1)}
+        # Rounding can leave a tiny negative number where shared errors dominate by far.
+        return {"phase": np.maximum(np.sum(residual * product, axis=-1), 0.0)}
     first, second = radar.image_pairs.T
     weight = 1.0 / sum(model.pair_variance.values(), start=np.zeros(()))
     scaled = weight * (residual[..., second] - residual[..., first])

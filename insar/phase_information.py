@@ -32,8 +32,8 @@ def fisher_information(coherence: ArrayLike, *, looks: float) -> Array:
 
     References
     ----------
-    The Fisher information of a circular Gaussian vector; Guarnieri and Tebaldini 2008,
-    doi:10.1109/TSP.2008.925578, for the real case X = 2L(|Γ|∘|Γ|⁻¹ − I).
+    The Fisher information of a circular Gaussian vector; Guarnieri and Tebaldini 2007,
+    doi:10.1109/LSP.2007.904705, for the real case X = 2L(|Γ|∘|Γ|⁻¹ − I).
     """
     gamma = np.asarray(coherence)
     inverse = np.linalg.inv(gamma)
@@ -45,9 +45,9 @@ def filtered_information(band_offset: ArrayLike, *, image_coherence: float, look
     """Joint information of the phases after range spectral filtering to the common bands.
 
     Image i sees the ground band [o_i, o_i + 1]. Each interval of the band is seen by a subset of
-    the images, there at full coherence γ_i γ_j = γ²; its share of the looks gives that subset the
-    information 2L(w |S| I − w² 11ᵀ…)/(1 + |S|w) with w = γ²/(1 − γ²), because a coherence matrix
-    of rank one plus a diagonal inverts in closed form. Off the diagonal the sum over intervals is
+    the images, there at full coherence γ_i γ_j = γ²; its share of the looks gives a subset S the
+    information 2L w²(|S| I − 11ᵀ)/(1 + |S|w) with w = γ²/(1 − γ²), because a coherence matrix of
+    rank one plus a diagonal inverts in closed form. Off the diagonal the sum over intervals is
 
         X_ij = −2L w² ∫ df/(1 + n(f) w)  over the common band of i and j,
 

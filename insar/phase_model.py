@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from scipy.linalg import helmert
 
 from .baselines import image_projections, scene_critical_baseline, sensitivity
 from .coherence import common_band
@@ -29,8 +30,8 @@ class PhaseModel(NamedTuple):
     ----------
     vertical_wavenumber : (..., S, M) — kz of each image relative to the first [rad/m].
     information : (..., S, M, M) — Fisher information of the noise, rows summing to zero [1/rad²].
-    nuisance : source → (..., S, M, R) — factor F_s of the errors that images share [rad], with
-        ε_s independent and of unit variance.
+    nuisance : source → (..., S, M, R) — factor F_s of the errors that images share, relative to
+        the first image [rad], with ε_s independent and of unit variance.
     pair_variance : source → (..., S, K) — variances that are independent from pair to pair
         [rad²]; empty under the joint weighting.
     scale : source → its scale.
@@ -70,17 +71,21 @@ def phase_model(
     kz = wavenumber * projected[..., 0] / direction.height_lever[:, None]
     offset = projected[..., 0] / scene_critical_baseline(scene, radar)[:, None]
 
-    nuisance: dict[str, Array] = {}
+    factors: dict[str, Array] = {}
     if errors.position.std > 0.0:
-        factor = wavenumber * errors.position.std * radar.incidence_matrix
-        nuisance["position"] = np.broadcast_to(factor, (*kz.shape[:-1], *factor.shape))
+        # Errors relative to the fleet's mean, in an orthonormal basis: no phase sees a common shift,
+        # and carrying it along would leave the shared system of `height_error_of` near singular.
+        relative = helmert(radar.satellite_count).T
+        factors["position"] = wavenumber * errors.position.std * radar.incidence_matrix @ relative
     if errors.azimuth.std > 0.0:
-        nuisance["azimuth"] = wavenumber * errors.azimuth.std * projected[..., 1:2]
+        factors["azimuth"] = wavenumber * errors.azimuth.std * projected[..., 1:2]
     if errors.synchronization.std > 0.0:
         bistatic = np.diag([float(tx != rx) for tx, rx in radar.images])
-        nuisance["synchronization"] = np.broadcast_to(
-            errors.synchronization.std * bistatic, (*kz.shape[:-1], *bistatic.shape)
-        )
+        factors["synchronization"] = errors.synchronization.std * bistatic
+    nuisance = {
+        name: np.broadcast_to(factor - factor[..., :1, :], (*kz.shape, factor.shape[-1]))
+        for name, factor in factors.items()
+    }
 
     scale = {"phase": Scale.PIXEL, "range": errors.range.scale} | {
         name: getattr(errors, name).scale for name in nuisance

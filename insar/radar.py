@@ -25,7 +25,7 @@ class Radar:
     snr : scalar — signal-to-noise ratio of an image, as a power ratio.
     looks : scalar — independent looks averaged in an interferogram; need not be whole.
     images : the (transmitter, receiver) of each image, as 0-based satellite indices. The phase
-        centre of an image is p_tx + p_rx, so one transmitter for all counts baselines once and
+        center of an image is p_tx + p_rx, so one transmitter for all counts baselines once and
         monostatic images count them twice.
     other_coherence : scalar — coherence lost to everything but noise and baseline (quantization,
         ambiguities, processing), the same in every pair, at most 1.
@@ -139,6 +139,6 @@ def ping_pong(count: int) -> tuple[Image, ...]:
 
     Notes
     -----
-    Image (j, i) has the phase centre of image (i, j) and adds looks, not baselines.
+    Image (j, i) has the phase center of image (i, j) and adds looks, not baselines.
     """
     return tuple((tx, rx) for tx in range(count) for rx in range(count))

@@ -192,7 +192,7 @@ class Scene:
                 f"{altitude / 1e3:.6g} km; it must lie between 0 and {limit:.2f}°"
             )
         incidence = float(np.arcsin(ratio * np.sin(look_angle)))
-        # Law of sines in the triangle Earth centre, satellite, target.
+        # Law of sines in the triangle Earth center, satellite, target.
         slant_range = earth_radius * np.sin(incidence - look_angle) / np.sin(look_angle)
         time = np.atleast_1d(np.asarray(times, dtype=np.float64))
         one = np.ones_like(time)

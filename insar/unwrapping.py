@@ -103,12 +103,12 @@ def unwrapping_ladder(model: PhaseModel, *, prior_height_std: float) -> Unwrappi
         smallest = np.take_along_axis(variance, best[..., None], axis=-1)
         pairs[..., rung, 0], pairs[..., rung, 1] = first, second
         cycle_std[..., rung] = np.sqrt(smallest[..., 0])
-        # Knowing the cycle of this pair conditions all others.
+        # Knowing the cycle of this pair conditions all others; one known already, up to rounding,
+        # tells nothing new.
         gain = _column(float_covariance, second) - _column(float_covariance, first)
-        float_covariance = (
-            float_covariance
-            - gain[..., :, None] * gain[..., None, :] / np.maximum(smallest, 1e-300)[..., None]
-        )
+        rounding = 1e-14 * np.max(diagonal, axis=-1, keepdims=True)
+        known = np.where(smallest > rounding, smallest, np.inf)[..., None]
+        float_covariance = float_covariance - gain[..., :, None] * gain[..., None, :] / known
         first_group = np.take_along_axis(group, first[..., None], axis=-1)
         second_group = np.take_along_axis(group, second[..., None], axis=-1)
         group = np.where(group == second_group, first_group, group)
@@ -173,8 +173,7 @@ def _float_covariance(model: PhaseModel, prior_height_std: float) -> Array:
     noise[..., index, index] += _UNMEASURED_PHASE_STD**-2
     relative[..., 1:, 1:] = np.linalg.inv(noise)
     for factor in model.nuisance.values():
-        difference = factor - factor[..., :1, :]
-        relative += difference @ np.swapaxes(difference, -1, -2)
+        relative += factor @ np.swapaxes(factor, -1, -2)
     relative += prior_height_std**2 * kz[..., :, None] * kz[..., None, :]
     return relative / (2.0 * np.pi) ** 2
 

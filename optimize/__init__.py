@@ -1,7 +1,7 @@
 """Scores formations by the height-error model, and searches for the best within limits."""
 
 from .assessment import Assessment, ImagePair, Rung, Unwrapping, assess
-from .constraints import Bound, ConstraintReport, Constraints, Limit
+from .constraints import Bound, ConstraintReport, Constraints, FailureLimit, Limit
 from .design_space import DesignSpace, DesignVariables
 from .findings import findings
 from .genetic import GeneticSettings
@@ -18,6 +18,7 @@ __all__ = [
     "DesignVariables",
     "EvaluateResult",
     "Evaluation",
+    "FailureLimit",
     "GenerationRecord",
     "GeneticSettings",
     "ImagePair",

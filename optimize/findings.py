@@ -63,6 +63,12 @@ def _of_the_formation(problem: Problem, assessment: Assessment) -> list[str]:
             f"{len(dark)} of {len(assessment.pairs)} pairs reach their critical baseline: they "
             "have no coherence and carry no information of their own."
         )
+    beyond = [pair for pair in assessment.pairs if np.any(pair.baseline_over_critical >= 1.0)]
+    if beyond and not dark:
+        notes.append(
+            f"{len(beyond)} of {len(assessment.pairs)} pairs reach their critical baseline, where "
+            "images have no coherence; the error model of this study counts them all the same."
+        )
     return notes
 
 

@@ -78,7 +78,7 @@ class _NotMeasurableError(Exception):
 
 
 class _Descent:
-    """Values and gradients at the current point, from one batched scoring of its neighbours."""
+    """Values and gradients at the current point, from one batched scoring of its neighbors."""
 
     def __init__(self, score: Score, start: Array, upper: Array, free: int) -> None:
         self._score, self._start, self._upper, self._free = score, start, upper, free

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import NamedTuple
@@ -40,6 +41,7 @@ class GenerationRecord(NamedTuple):
     best : best region height error of a feasible formation so far [m]; `inf` before the first.
     mean : mean region height error of the generation's feasible formations [m]; NaN without any.
     feasible_fraction : share of the generation that is feasible.
+    refinement : whether this is the local refinement, not a generation.
     """
 
     generation: int
@@ -47,6 +49,7 @@ class GenerationRecord(NamedTuple):
     best: float
     mean: float
     feasible_fraction: float
+    refinement: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,6 +75,11 @@ class SearchResult:
     evaluations: int
     history: tuple[GenerationRecord, ...]
     interrupted: bool
+
+    @property
+    def refined(self) -> bool:
+        """Whether the best designs were refined locally: the history's last line then says so."""
+        return bool(self.history) and self.history[-1].refinement
 
 
 def search(
@@ -136,7 +144,7 @@ class _Search:
 
     @property
     def best_feasible(self) -> bool:
-        return self._best is not None and self._best[0] == 0.0 and np.isfinite(self._best[1])
+        return self._best is not None and self._best[0] == 0.0 and math.isfinite(self._best[1])
 
     @property
     def best_objective(self) -> float:
@@ -189,6 +197,7 @@ class _Search:
                     generation=last.generation + 1,
                     evaluations=self.evaluations,
                     best=self.best_objective if self.best_feasible else np.inf,
+                    refinement=True,
                 )
             )
 

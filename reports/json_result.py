@@ -78,7 +78,7 @@ def optimize_json(result: OptimizeResult) -> Json:
         "search": {
             "genetic_best_m": finite(search.genetic_objective),
             "best_m": finite(search.objective),
-            "feasible": bool(search.feasible),
+            "feasible": search.feasible,
             "interrupted": search.interrupted,
         },
         "history": [

@@ -8,8 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from insar import BaselineDecorrelation, HeightStatus
-from optimize import Assessment, ConstraintReport, Problem, SearchResult
-from optimize.constraints import FailureLimit
+from optimize import Assessment, ConstraintReport, FailureLimit, Problem
 
 ACTIVE_MARGIN = 1e-3
 """Margin, in parts of the limit, below which a limit that is kept counts as active."""
@@ -103,7 +102,7 @@ def pair_name(problem: Problem, names: tuple[str, ...], images: tuple[int, int])
 
 
 def pair_satellites(problem: Problem, images: tuple[int, int]) -> tuple[int, ...]:
-    """Satellites between whose phase centres the baseline of a pair lies."""
+    """Satellites between whose phase centers the baseline of a pair lies."""
     first, second = problem.radar.incidence_matrix[list(images)]
     return tuple(int(index) for index in np.flatnonzero(first != second))
 
@@ -123,17 +122,3 @@ def rung_numbers(assessment: Assessment) -> dict[tuple[int, int], int]:
     if assessment.unwrapping is None:
         return {}
     return {rung.images: number for number, rung in enumerate(assessment.unwrapping.rungs, 1)}
-
-
-def refined(search: SearchResult) -> bool:
-    """Whether the last line of the history is the local refinement, which scores no generation."""
-    if len(search.history) < 2:
-        return False
-    before, last = search.history[-2:]
-    same_mean = last.mean == before.mean or (math.isnan(last.mean) and math.isnan(before.mean))
-    population = search.history[0].evaluations
-    return (
-        same_mean
-        and last.feasible_fraction == before.feasible_fraction
-        and last.evaluations - before.evaluations != population
-    )

@@ -90,7 +90,7 @@ def quantity(text: str, unit: str) -> str:
     return f"{text}\u00a0{unit}" if unit else text
 
 
-def metres(value: float) -> str:
+def meters(value: float) -> str:
     """Length with three significant digits and its unit."""
     return quantity(significant(value), "m") if math.isfinite(value) else MISSING
 

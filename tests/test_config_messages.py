@@ -69,14 +69,14 @@ IN_THREE_SAT = {
         "prior_height_std_m: 4",
         "radar.prior_height_std_m is not a known key; it belongs under 'constraints.unwrapping';",
     ),
-    "metres for kilometres": (
+    "meters for kilometers": (
         "altitude_km: 514 ",
         "altitude_km: 514000 ",
         "514000",
         "orbit.altitude_km = 514000 must be a number from 150 to 36000 km; "
-        "if it is in metres, write 514",
+        "if it is in meters, write 514",
     ),
-    "kilometres far off": (
+    "kilometers far off": (
         "altitude_km: 514 ",
         "altitude_km: 514000000 ",
         "514000000",
@@ -90,7 +90,7 @@ IN_THREE_SAT = {
         "scene.strip.look_deg = 0.4014 must be a number from 2 to 80 degrees; "
         "if it is in radians, write 22.9985",
     ),
-    "hertz for metres": (
+    "hertz for meters": (
         "wavelength_m: 0.031",
         "wavelength_m: 9.65e9",
         "9.65e9",
@@ -101,7 +101,7 @@ IN_THREE_SAT = {
         "wavelength_m: 0.031",
         "wavelength_m: 31",
         "31\n",
-        "if it is in millimetres, write 0.031; if in centimetres, write 0.31",
+        "if it is in millimeters, write 0.031; if in centimeters, write 0.31",
     ),
     "percent": (
         "min_probability: 0.99",
@@ -257,7 +257,7 @@ IN_THREE_SAT = {
         "images: one_transmitter ",
         "images: [[S1, S2], [S2, S1]] ",
         "[[S1, S2]",
-        "are two images with one phase centre, between the same satellites; add an image",
+        "are two images with one phase center, between the same satellites; add an image",
     ),
     "image that is no pair": (
         "images: one_transmitter ",
@@ -581,6 +581,15 @@ def test_a_missing_key_says_what_belongs_there(read):
         place(text, "orbit:") + " orbit.altitude_km is missing; add a number from 150 to 36000 km "
         "(Height above the equatorial radius of the Earth, 6378.137 km)"
     )
+
+
+def test_a_study_that_no_memory_holds_is_refused(read):
+    text = changed(THREE_SAT, "segments: 10 ", "segments: 1000 ")
+    text = changed(text, "population: 60", "population: 10000")
+    shown = read(text)
+    assert shown.startswith(place(text, "scene:"))
+    assert "has 1000 segments, which with 3 images and 10000 formations at a time is too" in shown
+    assert "may reach 5e+07; take fewer segments, or a smaller search.population" in shown
 
 
 def test_two_compared_formations_of_one_label_are_refused(read):

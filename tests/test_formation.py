@@ -133,7 +133,7 @@ def test_mirror_sign_broadcasts_over_a_population(mean_motion):
         space_circular(1.0, 0.0, mean_motion=mean_motion, sign=2)
 
 
-def test_drift_of_one_metre_of_radial_offset():
+def test_drift_of_one_meter_of_radial_offset():
     # Closed form: a satellite at rest 1 m above drifts by −12π per orbit; with the velocity of
     # its own circular orbit (Ṫ = −1.5 n R), 3π: physics of +1 m of semi-major axis.
     n = 1.1e-3

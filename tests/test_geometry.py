@@ -44,7 +44,7 @@ def test_line_of_sight_and_vertical_meet_at_the_incidence(look, azimuth):
     scene = spherical_scene(look, azimuth)
     cosine = np.sum(scene.line_of_sight * scene.vertical, axis=-1)
     assert_allclose(cosine, -np.cos(scene.incidence), atol=1e-12)
-    # The vertical is the direction from the Earth's centre to the target.
+    # The vertical is the direction from the Earth's center to the target.
     center_to_target = (
         np.array([EARTH_RADIUS + 514e3, 0, 0]) + scene.slant_range[:, None] * scene.line_of_sight
     )

@@ -148,14 +148,14 @@ def test_tandem_x_like_baselines():
     assert critical == pytest.approx(case["critical_baseline_m"], abs=1.0)
 
 
-def test_one_millimetre_of_baseline_is_over_a_metre_of_height():
+def test_one_millimeter_of_baseline_is_over_a_meter_of_height():
     """δh = HoA·δB_∥/λ: 1.13 m at a height of ambiguity of 35 m, λ = 0.0311 m."""
     radar = dataclasses.replace(radar_for(((0, 0), (0, 1)), looks=1e9), wavelength=0.0311)
     baseline = 0.0311 * SCENE.slant_range[0] * np.sin(SCENE.incidence[0]) / 35.0
     across = np.cross(SCENE.line_of_sight, [0.0, 1.0, 0.0])[:, None, :] * baseline
     positions = np.concatenate([np.zeros_like(across), across], axis=1)
-    one_millimetre = ErrorBudget(position=ErrorSource(0.001 / np.sqrt(2), SharedBy.SATELLITE))
-    error = height_error(positions, SCENE, radar=radar, errors=one_millimetre)
+    one_millimeter = ErrorBudget(position=ErrorSource(0.001 / np.sqrt(2), SharedBy.SATELLITE))
+    error = height_error(positions, SCENE, radar=radar, errors=one_millimeter)
     assert_allclose(error.total, 1.13, atol=5e-3)
 
 
@@ -475,3 +475,23 @@ def test_impossible_budgets_are_refused(change, message):
 def test_impossible_radars_are_refused(change, message):
     with pytest.raises(ValueError, match=message):
         dataclasses.replace(radar_for(one_transmitter(2)), **change)
+
+
+def test_enormous_shared_errors_stay_finite():
+    """10 m of position error at λ = 1 mm and 60 dB: rounding makes the shared system singular."""
+    radar = Radar(
+        wavelength=0.001,
+        slant_range_resolution=3.0,
+        snr=1e6,
+        looks=1e4,
+        images=ping_pong(2),
+    )
+    budget = ErrorBudget(position=ErrorSource(10.0, SharedBy.SATELLITE))
+    positions = np.random.default_rng(0).uniform(-3, 3, size=(50, len(SCENE), 2, 3))
+    error = height_error(positions, SCENE, radar=radar, errors=budget)
+    assert np.all(np.isfinite(error.total))
+    assert np.all(np.isfinite(error.relative))
+    # Nothing but the position error counts: σ_h = HoA·√2σ_p·m/λ of the monostatic pair.
+    pair = pair_geometry(positions, SCENE, radar=radar)
+    ambiguity = pair.height_of_ambiguity[..., 2]  # images (0, 0) and (1, 1)
+    assert_allclose(error.total, ambiguity * np.sqrt(2) * 10.0 * 2 / 0.001, rtol=0.05)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from configs import EvaluateStudy, build_evaluate
+from configs import EvaluateStudy
+from configs.build import build_evaluate
 from optimize import EvaluateResult, assess, findings
 
 from .outcome import Options, Outcome

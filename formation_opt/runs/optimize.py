@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from configs import OptimizeStudy, build_optimize
+from configs import OptimizeStudy
+from configs.build import build_optimize
 from optimize import Assessment, OptimizeResult, assess, findings, search
 
 from .outcome import Options, Outcome

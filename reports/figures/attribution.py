@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..reading import Share, Shown, shares
-from ..wording import metres, percent, source_name
+from ..wording import meters, percent, source_name
 from .style import color, draw, shortened
 
 
@@ -44,7 +44,7 @@ def _paint_bars(axes: Axes, found: Sequence[Share], sources: Sequence[str], *, s
             continue
         axes.barh(row, share.contribution, height=0.62, color=shade)
         axes.annotate(
-            f"{metres(share.contribution)} ({percent(share.variance_share)})",
+            f"{meters(share.contribution)} ({percent(share.variance_share)})",
             (share.contribution, row),
             xytext=(3, 0),
             textcoords="offset points",

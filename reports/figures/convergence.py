@@ -9,7 +9,6 @@ from matplotlib.ticker import MaxNLocator
 
 from optimize import SearchResult
 
-from ..reading import refined
 from ..tables import history_frame
 from ..wording import significant
 from .style import MUTED, color, draw, error_axis
@@ -27,7 +26,7 @@ def convergence_figure(search: SearchResult) -> bytes:
         upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(2.4, 1.0))
         _paint_errors(upper, search)
         history = history_frame(search)
-        genetic = history[:-1] if refined(search) else history
+        genetic = history[:-1] if search.refined else history
         lower.fill_between(
             genetic["generation"],
             100.0 * genetic["feasible_fraction"],
@@ -48,7 +47,7 @@ def convergence_figure(search: SearchResult) -> bytes:
 
 def _paint_errors(axes: Axes, search: SearchResult) -> None:
     history = history_frame(search).replace([np.inf, -np.inf], np.nan)
-    is_refined = refined(search)
+    is_refined = search.refined
     genetic = history[:-1] if is_refined else history
     axes.plot(
         genetic["generation"],
@@ -98,5 +97,5 @@ def _paint_refinement(axes: Axes, search: SearchResult) -> None:
 
 def _generations(search: SearchResult) -> tuple[float, float]:
     """Ends of the horizontal axis, with room for the refinement."""
-    last = search.history[-2 if refined(search) else -1].generation
+    last = search.history[-2 if search.refined else -1].generation
     return 0.0, 1.04 * last if last > 0 else 1.0

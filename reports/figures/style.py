@@ -77,7 +77,7 @@ def color(index: int) -> str:
 
 
 def marker(index: int) -> str:
-    """Marker of a satellite or series, distinct also in grey."""
+    """Marker of a satellite or series, distinct also in gray."""
     return _MARKERS[index % len(_MARKERS)]
 
 

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import math
 
-from optimize import Bound, ConstraintReport
-from optimize.constraints import FailureLimit
+from optimize import Bound, ConstraintReport, FailureLimit
 
 from ..reading import ACTIVE_MARGIN
 from ..wording import MISSING, percent, plain, probability, quantity, significant

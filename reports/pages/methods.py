@@ -135,7 +135,7 @@ def _sensitivity(problem: Problem) -> tuple[Block, ...]:
     return (
         Paragraph(
             (
-                "An image has the phase centre ",
+                "An image has the phase center ",
                 Strong("q"),
                 " of its transmitter and receiver. The height sensitivity of the phase between "
                 "two images is",

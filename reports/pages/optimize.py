@@ -11,10 +11,10 @@ from optimize import Assessment, OptimizeResult
 from ..document import Block, Document, Figure, Paragraph, Section
 from ..figures.convergence import convergence_figure
 from ..json_result import optimize_json
-from ..reading import Shown, refined
+from ..reading import Shown
 from ..study import Provenance, StudyInfo
 from ..tables import formation_frame, height_error_frame
-from ..wording import counted, metres
+from ..wording import counted, meters
 from . import sections
 from .closing import closing_sections
 from .interferometry import pairs_section, unwrapping_section
@@ -67,17 +67,17 @@ def csv(result: OptimizeResult) -> dict[str, pd.DataFrame]:
 def _convergence_section(result: OptimizeResult) -> Section:
     search = result.search
     text = f"{counted(search.evaluations, 'formation')} were scored"
-    if refined(search):
+    if search.refined:
         last = search.history[-1].evaluations - search.history[-2].evaluations
         text += f", {last} of them by the local refinement"
     text += "."
     blocks: list[Block] = []
-    if refined(search):
+    if search.refined:
         before, after = search.genetic_objective, search.objective
         if search.feasible:
             text += (
-                f" The genetic algorithm alone reached {metres(before)}; local refinement of its "
-                f"best, mutually distant designs brought {metres(after)}."
+                f" The genetic algorithm alone reached {meters(before)}; local refinement of its "
+                f"best, mutually distant designs brought {meters(after)}."
             )
         else:
             text += " Neither the genetic algorithm nor the refinement met every limit."

@@ -86,7 +86,7 @@ def formation_section(problem: Problem, formations: Sequence[Shown]) -> Section:
             Figure(
                 orbits_figure(shown.assessment, line_of_sight=middle),
                 f"Relative orbits of the {label} formation over one revolution, all to one scale. "
-                f"Marks are the satellites at {_EPOCH}, grey lines the baselines between them; "
+                f"Marks are the satellites at {_EPOCH}, gray lines the baselines between them; "
                 "arrows give the flight direction and the line of sight in the middle of the "
                 "scene, ⊙ one that points at the viewer. Of orbits that coincide one is dashed.",
                 f"Three projections and a view in space of the {label} formation's orbits.",
@@ -99,14 +99,14 @@ def formation_section(problem: Problem, formations: Sequence[Shown]) -> Section:
 
 
 def _formation_table(assessment: Assessment) -> Table:
-    metres_, rates = to_decimals(2), to_decimals(4)
+    meters_, rates = to_decimals(2), to_decimals(4)
     return Table(
         formation_frame([assessment]),
         (
             Column("satellite", "Satellite"),
-            Column("r_m", "R = z₀", "m", metres_),
-            Column("t_m", "T", "m", metres_),
-            Column("n_m", "N", "m", metres_),
+            Column("r_m", "R = z₀", "m", meters_),
+            Column("t_m", "T", "m", meters_),
+            Column("n_m", "N", "m", meters_),
             Column("vr_m_s", "Ṙ = ż₀", "m/s", rates),
             Column("vt_m_s", "Ṫ", "m/s", rates),
             Column("vn_m_s", "Ṅ", "m/s", rates),

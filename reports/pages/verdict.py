@@ -19,7 +19,7 @@ from ..reading import (
 from ..wording import (
     counted,
     joined,
-    metres,
+    meters,
     percent,
     plain,
     probability,
@@ -45,7 +45,7 @@ def optimize_verdict(result: OptimizeResult) -> tuple[Block, ...]:
         )
     if best.feasible:
         paragraphs.append((*_achieved(best), " ", _against(initial, best)))
-        status, title = Status.GOOD, f"Height error {metres(float(best.height_error.region))}"
+        status, title = Status.GOOD, f"Height error {meters(float(best.height_error.region))}"
     else:
         paragraphs.append(
             "No formation that keeps every limit was found. Shown is the one that breaks them "
@@ -65,7 +65,7 @@ def evaluate_verdict(result: EvaluateResult) -> tuple[Block, ...]:
         status, title = Status.BAD, "No height is measured"
         paragraphs: list[Text] = []
     else:
-        title = f"Height error {metres(float(formation.height_error.region))}"
+        title = f"Height error {meters(float(formation.height_error.region))}"
         status = Status.GOOD if formation.feasible else Status.BAD
         paragraphs = [_achieved(formation)]
     paragraphs += _remarks(result.problem, formation)
@@ -78,9 +78,9 @@ def _achieved(formation: Assessment) -> tuple[str, ...]:
     error = formation.height_error
     return (
         f"The {formation.label} formation measures height with an error of ",
-        Strong(metres(float(error.region))),
+        Strong(meters(float(error.region))),
         f" (total, RMS over {counted(error.total.size, 'segment')} of the scene), of which ",
-        Strong(metres(float(error.relative_region))),
+        Strong(meters(float(error.relative_region))),
         " varies from pixel to pixel (relative error).",
     )
 
@@ -90,7 +90,7 @@ def _against(initial: Assessment, best: Assessment) -> str:
     if not measured(initial):
         return f"The {initial.label} formation measures no height: {unmeasured_reason(initial)}."
     before, after = float(initial.height_error.region), float(best.height_error.region)
-    figures = f"{metres(before)} (relative {metres(float(initial.height_error.relative_region))})"
+    figures = f"{meters(before)} (relative {meters(float(initial.height_error.relative_region))})"
     if not initial.feasible:
         names = joined([report.limit.name for report in broken(initial)])
         return (
@@ -141,12 +141,12 @@ def _limited_by(formation: Assessment) -> Text:
     text: tuple[str, ...] = (
         "The largest contribution is ",
         Strong(source_name(first.source)),
-        f" ({metres(first.contribution)}, {percent(first.variance_share)} of the variance)",
+        f" ({meters(first.contribution)}, {percent(first.variance_share)} of the variance)",
     )
     if rest and rest[0].variance_share >= 0.05:
         second = rest[0]
         text += (
-            f", then {source_name(second.source)} ({metres(second.contribution)}, "
+            f", then {source_name(second.source)} ({meters(second.contribution)}, "
             f"{percent(second.variance_share)})",
         )
     at_limit = [report.limit.name for report in formation.constraints if active(report)]
@@ -192,10 +192,10 @@ def _metrics(problem: Problem, formation: Assessment) -> Metrics:
     error, unwrapping = formation.height_error, formation.unwrapping
     reason = unmeasured_reason(formation)
     items = [
-        Metric("Height error", metres(float(error.region)), reason or "total, RMS of the scene"),
+        Metric("Height error", meters(float(error.region)), reason or "total, RMS of the scene"),
     ]
     if reason is None:
-        relative = metres(float(error.relative_region))
+        relative = meters(float(error.relative_region))
         items.append(Metric("Relative error", relative, "from pixel to pixel"))
     if unwrapping is not None and reason is None:
         required = problem.constraints.min_unwrapping_probability
@@ -206,7 +206,7 @@ def _metrics(problem: Problem, formation: Assessment) -> Metrics:
         items.append(Metric("Unwrapping", probability(value), remark))
     separation = float(formation.separations.min()) if formation.separations.size else math.nan
     if math.isfinite(separation):
-        items.append(Metric("Closest approach", metres(separation), "any two, at any time"))
+        items.append(Metric("Closest approach", meters(separation), "any two, at any time"))
     count, kept = len(formation.constraints), len(formation.constraints) - len(broken(formation))
     if count:
         status = Status.GOOD if kept == count else Status.BAD
