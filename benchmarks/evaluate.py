@@ -131,6 +131,8 @@ def by_stage(cases: Sequence[tuple[int, int]], *, seconds: float) -> None:
         columns.append(
             {name: best_time(call, seconds=seconds) / batch for name, call in calls.items()}
         )
+    for column in columns:
+        column["rest"] = 2.0 * column["all"] - sum(column.values())
     for name in columns[0]:
         cells = (f"{c[name] * 1e6:12.1f} ({c[name] / c['all']:4.0%})" for c in columns)
         print(f"{name:>14}", *(f"{cell:>20}" for cell in cells))

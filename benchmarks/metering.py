@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from optimize import DesignSpace, Evaluation, Problem
+from optimize.constraints import FEASIBILITY_TOLERANCE
 
 Array = NDArray[np.float64]
 Result = TypeVar("Result")
@@ -88,7 +89,7 @@ class MeteredProblem(Problem):
         admitted = self.meter.admit(asked)
         objectives, margins = self.meter.timed(lambda: score(admitted))
         worst = np.min([margin.min(axis=-1) for margin in margins], axis=0)
-        self.meter.note(objectives, worst >= -1e-9)
+        self.meter.note(objectives, worst >= -FEASIBILITY_TOLERANCE)
         if len(admitted) < len(asked):
             raise BudgetSpentError
         return objectives, margins

@@ -1,4 +1,4 @@
-"""Problems that the benchmarks share; those of the tests, built anew so that neither needs the other."""
+"""Problems that the benchmarks share: those of the tests, which they do not import."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import numpy as np
 
 from formation import Orbit, ground_track_circular
 from insar import ErrorBudget, ErrorSource, Radar, Scene, SharedBy, one_transmitter
-from optimize import Constraints, DesignSpace, GeneticSettings, Problem
+from optimize import Constraints, DesignSpace, GeneticSettings, Problem, SearchSettings
 
 MEAN_MOTION = Orbit.circular(altitude=514e3, inclination=np.deg2rad(97.44)).mean_motion
 
@@ -32,14 +32,14 @@ class Landscape(NamedTuple):
     ----------
     name : in words.
     problem, space : what is searched.
-    genetic : settings of the genetic algorithm.
+    settings : of our search.
     best_known : the smallest feasible region height error known [m].
     """
 
     name: str
     problem: Problem
     space: DesignSpace
-    genetic: GeneticSettings
+    settings: SearchSettings
     best_known: float
 
 
@@ -110,12 +110,12 @@ def paper_problem(
     return problem, _space(satellites, radius=1211.2, signs=(1,))
 
 
-def landscapes(*, generations: int | None = None) -> tuple[Landscape, ...]:
+def landscapes(*, quick: bool = False) -> tuple[Landscape, ...]:
     """The landscapes of `search.py`, with the settings of the shipped studies.
 
     Parameters
     ----------
-    generations : instead of the shipped number.
+    quick : few generations and refinements, to see that all runs.
     """
     shared = dataclasses.replace(
         ErrorBudget.li2009(),
@@ -124,21 +124,23 @@ def landscapes(*, generations: int | None = None) -> tuple[Landscape, ...]:
     )
     limits = Constraints(max_radius=1211.2, min_separation=100.0)
 
-    def genetic(shipped: int) -> GeneticSettings:
-        return GeneticSettings(population=60, generations=generations or shipped)
+    def settings(generations: int) -> SearchSettings:
+        if quick:
+            return SearchSettings(GeneticSettings(population=60, generations=10), refinements=1)
+        return SearchSettings(GeneticSettings(population=60, generations=generations))
 
     return (
         Landscape(
-            "realistic, 3 satellites", *realistic_problem(3), genetic(100), best_known=0.25289517
+            "realistic, 3 satellites", *realistic_problem(3), settings(100), best_known=0.25289517
         ),
         Landscape(
-            "realistic, 4 satellites", *realistic_problem(4), genetic(150), best_known=0.11464157
+            "realistic, 4 satellites", *realistic_problem(4), settings(150), best_known=0.11464157
         ),
         # No decorrelation: the optimum is known by proof (a convex certificate), to six decimals.
         Landscape(
             "dumbbell, 4 satellites",
             *paper_problem(4, errors=shared, constraints=limits),
-            genetic(100),
+            settings(100),
             best_known=0.813011,
         ),
     )
