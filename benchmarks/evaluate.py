@@ -11,8 +11,9 @@
    at a time with an explicit R⁻¹, on the paper's problem. Both give the same errors to 1e-9, which
    is checked.
 
-Times are the best of several repetitions, for this machine: compare the ratios. The script sets
-OPENBLAS_NUM_THREADS=1 unless it is set; more threads make such small matrices slower.
+Times are CPU times, the best of several repetitions, so that other processes matter little; they
+are of one machine: compare the ratios. The script sets OPENBLAS_NUM_THREADS=1 unless it is set:
+more threads make such small matrices slower, and CPU time would count them all.
 """
 
 from __future__ import annotations
@@ -25,7 +26,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 import argparse
 import dataclasses
 from collections.abc import Callable, Sequence
-from time import perf_counter
+from time import process_time
 
 import numpy as np
 from numpy.typing import NDArray
@@ -66,13 +67,13 @@ def random_states(space: DesignSpace, count: int) -> Array:
 
 
 def best_time(function: Callable[[], object], *, seconds: float) -> float:
-    """Shortest time of one call among those that fit into `seconds`, three at least [s]."""
+    """Shortest CPU time of one call among those that fit into `seconds`, three at least [s]."""
     function()  # fills caches
     times: list[float] = []
     while len(times) < 3 or sum(times) < seconds:
-        start = perf_counter()
+        start = process_time()
         function()
-        times.append(perf_counter() - start)
+        times.append(process_time() - start)
     return min(times)
 
 

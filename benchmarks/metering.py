@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, fields
-from time import perf_counter
+from time import process_time
 from typing import Any, TypeVar
 
 import numpy as np
@@ -29,7 +29,7 @@ class Meter:
     ----------
     budget : evaluations that it may use.
     evaluations : formations scored.
-    seconds : time inside the evaluator, from design vectors to scores [s].
+    seconds : CPU time inside the evaluator, from design vectors to scores [s].
     best : smallest region height error of all feasible formations that it scored [m].
     """
 
@@ -43,11 +43,11 @@ class Meter:
         """Call a function on the evaluator's clock; nested calls count once."""
         if self.running:
             return function()
-        self.running, start = True, perf_counter()
+        self.running, start = True, process_time()
         try:
             return function()
         finally:
-            self.seconds += perf_counter() - start
+            self.seconds += process_time() - start
             self.running = False
 
     def admit(self, states: Array) -> Array:

@@ -14,7 +14,8 @@ evaluator, in the same process. The peers (`peers.py`):
 The table gives, over the seeds, the median and the worst region height error (`inf` where nothing
 feasible was found), the share of runs within 0.1 % of the best known, the share that ends feasible,
 and medians of the evaluations used, the time of a run, and the time outside the evaluator (which
-takes design vectors to scores) per evaluation. Times are of one machine: compare the ratios.
+takes design vectors to scores) per evaluation. Times are CPU times of one thread, so that other
+processes matter little, and of one machine: compare the ratios.
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 import argparse
 from collections.abc import Callable
 from contextlib import suppress
-from time import perf_counter
+from time import process_time
 from typing import NamedTuple
 
 import numpy as np
@@ -56,10 +57,10 @@ def run(peer: Callable[[Task], None], landscape: Landscape, *, seed: int, budget
     """One search, until it ends or its budget is spent."""
     meter = Meter(budget=budget)
     problem, space = metered(landscape.problem, landscape.space, meter)
-    start = perf_counter()
+    start = process_time()
     with suppress(BudgetSpentError):
         peer(Task(problem, space, landscape.settings, seed))
-    seconds = perf_counter() - start
+    seconds = process_time() - start
     return Run(meter.best, meter.evaluations, seconds, seconds - meter.seconds)
 
 

@@ -8,15 +8,18 @@ from __future__ import annotations
 
 import argparse
 import os
+import shlex
 import sys
 from collections.abc import Sequence
 from pathlib import Path
 
 from . import __version__
 from .one_place import intruder
+from .output import complain, prepare, say
 
 DONE, WRONG_INPUT, INFEASIBLE, INTERRUPTED = 0, 2, 3, 130
 FORMATS = ("html", "pdf")
+_THREADS = ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS")
 
 _DESCRIPTION = """\
 Design and optimize a distributed-InSAR formation: reads a study (YAML), runs it and writes a
@@ -44,6 +47,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     -------
     The exit code.
     """
+    prepare()
+    # The arrays here are small: BLAS threads only cost time, and the last digits of a sum, and
+    # with them the result of a seed, would depend on their number. NumPy is not imported yet.
+    os.environ.update(dict.fromkeys(_THREADS, "1"))
     shadow = intruder(Path(__file__).resolve().parent.parent)
     if shadow is not None:
         return _fail(shadow)
@@ -61,12 +68,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             return _fail("give a study: a YAML file, or an example's name (see --list)")
         return _run(options)
     except KeyboardInterrupt:
-        print("formation-opt: interrupted", file=sys.stderr)  # noqa: T201
-        return INTERRUPTED
-    except BrokenPipeError:
-        # The reader of our output (head, a pager) has left: nothing more to say to it.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return DONE
+        return _fail("interrupted", INTERRUPTED)
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -127,7 +129,7 @@ def _formats(text: str) -> tuple[str, ...]:
 
 
 def _fail(message: str, code: int = WRONG_INPUT) -> int:
-    print(f"formation-opt: {message}", file=sys.stderr)  # noqa: T201
+    complain(message)
     return code
 
 
@@ -136,7 +138,7 @@ def _list() -> int:
 
     for name in example_names():
         first_sentence = load_study(example_path(name)).study.description.split(". ")[0]
-        print(f"{name:20} {first_sentence.rstrip('.')}")  # noqa: T201
+        say(f"{name:20} {first_sentence.rstrip('.')}")
     return DONE
 
 
@@ -144,7 +146,7 @@ def _new(name: str) -> int:
     from configs import StudyError, example_text
 
     try:
-        print(example_text(name), end="")  # noqa: T201
+        say(example_text(name).rstrip("\n"))
     except StudyError as error:
         return _fail(str(error))
     return DONE
@@ -155,7 +157,7 @@ def _schema() -> int:
 
     from configs import json_schema
 
-    print(json.dumps(json_schema(), indent=2, ensure_ascii=False))  # noqa: T201
+    say(json.dumps(json_schema(), indent=2, ensure_ascii=False))
     return DONE
 
 
@@ -170,7 +172,7 @@ def _run(options: argparse.Namespace) -> int:
         return _fail(str(error))
     if options.check:
         if not options.quiet:
-            print(f"{options.study}: a valid study of kind {loaded.study.kind}")  # noqa: T201
+            say(f"{options.study}: a valid study of kind {loaded.study.kind}")
         return DONE
     from .execution import OutputError, execute
 
@@ -198,4 +200,4 @@ def _command(options: argparse.Namespace) -> str:
     parts = ["formation-opt", str(options.study)]
     if options.seed is not None:
         parts += ["--seed", str(options.seed)]
-    return " ".join(parts)
+    return shlex.join(parts)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import tempfile
 import time
-from collections.abc import Collection
+from collections.abc import Callable, Collection
 from datetime import UTC, datetime
 from pathlib import Path
 
@@ -13,6 +13,7 @@ from configs import LoadedStudy
 from reports import Provenance, StudyInfo, write_report
 
 from . import provenance, terminal
+from .interrupts import interrupts
 from .kinds import RUNS
 from .runs import Outcome
 
@@ -50,10 +51,23 @@ def execute(
     OutputError
         If the folder cannot be written, before anything is computed or when the disk fills up.
     """
-    study = loaded.study
     _make_writable(out)
+    with interrupts() as should_stop:
+        return _execute(loaded, out, seed, formats, quiet, command, should_stop)
+
+
+def _execute(
+    loaded: LoadedStudy,
+    out: Path,
+    seed: int | None,
+    formats: Collection[str],
+    quiet: bool,
+    command: str,
+    should_stop: Callable[[], bool],
+) -> Outcome:
+    study = loaded.study
     started, clock = datetime.now(UTC), time.perf_counter()
-    with terminal.progress(seed=seed, quiet=quiet) as options:
+    with terminal.progress(seed=seed, quiet=quiet, should_stop=should_stop) as options:
         outcome = RUNS[study.kind](study, options)
     info = StudyInfo(
         name=study.name,

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+import io
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -13,21 +14,25 @@ from rich.table import Table
 
 from optimize import Assessment, GenerationRecord
 
+from .output import say
 from .runs import Options
 
 
 @contextmanager
-def progress(*, seed: int | None, quiet: bool) -> Iterator[Options]:
+def progress(
+    *, seed: int | None, quiet: bool, should_stop: Callable[[], bool]
+) -> Iterator[Options]:
     """Options whose callbacks draw a progress bar; none where the output is no terminal.
 
     Parameters
     ----------
     seed : seed of the command line, if any.
     quiet : whether to show nothing.
+    should_stop : whether the user asked to stop.
     """
     console = Console(stderr=True)
     if quiet or not console.is_terminal:
-        yield Options(seed=seed)
+        yield Options(seed=seed, should_stop=should_stop)
         return
     with Progress(
         TextColumn("searching"),
@@ -47,7 +52,7 @@ def progress(*, seed: int | None, quiet: bool) -> Iterator[Options]:
             best = f"best {_meters(record.best)}" if np.isfinite(record.best) else "none feasible"
             bar.update(task, advance=1, best=best)
 
-        yield Options(seed=seed, on_start=start, on_generation=advance)
+        yield Options(seed=seed, on_start=start, on_generation=advance, should_stop=should_stop)
 
 
 def summary(shown: Sequence[Assessment], paths: Sequence[Path], *, seconds: float) -> None:
@@ -59,7 +64,6 @@ def summary(shown: Sequence[Assessment], paths: Sequence[Path], *, seconds: floa
     paths : the files written.
     seconds : duration of the run.
     """
-    console = Console(highlight=False, soft_wrap=True)
     table = Table(box=None, pad_edge=False, header_style="bold")
     table.add_column("")
     for assessment in shown:
@@ -78,10 +82,12 @@ def summary(shown: Sequence[Assessment], paths: Sequence[Path], *, seconds: floa
     rows.append(("limits", [_limits(a) for a in shown]))
     for label, values in rows:
         table.add_row(label, *values)
-    console.print(table)
+    console = Console(file=io.StringIO(), width=100, color_system=None)
+    with console.capture() as drawn:
+        console.print(table)
     folder = paths[0].parent
     names = ", ".join(path.name for path in paths)
-    console.print(f"\n{folder}: {names}  ({seconds:.1f} s)", markup=False)
+    say(f"{drawn.get()}\n{folder}: {names}  ({seconds:.1f} s)")
 
 
 def _meters(value: float) -> str:

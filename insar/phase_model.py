@@ -73,8 +73,8 @@ def phase_model(
 
     factors: dict[str, Array] = {}
     if errors.position.std > 0.0:
-        # Errors relative to the fleet's mean, in an orthonormal basis: no phase sees a common shift,
-        # and carrying it along would leave the shared system of `height_error_of` near singular.
+        # Errors relative to the fleet's mean, in an orthonormal basis: no phase sees a common
+        # shift, and with it the shared system of `height_error_of` would be near singular.
         relative = helmert(radar.satellite_count).T
         factors["position"] = wavenumber * errors.position.std * radar.incidence_matrix @ relative
     if errors.azimuth.std > 0.0:

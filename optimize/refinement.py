@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from contextlib import suppress
 from typing import NamedTuple
 
 import numpy as np
@@ -19,6 +18,9 @@ Score = Callable[[Array], tuple[Array, Array]]
 _STEP = 1e-6
 """Step of the central differences in parts of the box: truncation and rounding near 1e-10."""
 
+_TOLERANCE = 1e-10
+"""Change of the logarithm of the error that ends a descent: what the differences resolve."""
+
 _SAFE_MARGIN = 1e-8
 """Margin that the quadratic programs keep, so that their last digits stay feasible."""
 
@@ -29,11 +31,11 @@ class Refinement(NamedTuple):
     Attributes
     ----------
     design : (D,) — the best design met, the start included.
-    evaluations : formations scored.
+    interrupted : whether a KeyboardInterrupt ended the descent.
     """
 
     design: Array
-    evaluations: int
+    interrupted: bool
 
 
 def refine(
@@ -59,8 +61,8 @@ def refine(
     Every point on the way is a candidate, so a failed line search loses nothing.
     """
     descent = _Descent(score, start, upper, free)
-    # A descent that leaves the designs that measure a height ends; the best so far stands.
-    with suppress(_NotMeasurableError):
+    interrupted = False
+    try:
         minimize(
             descent.objective,
             start[:free] / upper[:free],
@@ -68,9 +70,13 @@ def refine(
             method="SLSQP",
             bounds=[(-1.0, 1.0)] * free,
             constraints=descent.constraints(),
-            options={"maxiter": max_iterations, "ftol": 1e-12},
+            options={"maxiter": max_iterations, "ftol": _TOLERANCE},
         )
-    return Refinement(descent.best_design, descent.evaluations)
+    except _NotMeasurableError:
+        pass  # The descent left the designs that measure a height; the best so far stands.
+    except KeyboardInterrupt:
+        interrupted = True
+    return Refinement(descent.best_design, interrupted)
 
 
 class _NotMeasurableError(Exception):
@@ -83,7 +89,6 @@ class _Descent:
     def __init__(self, score: Score, start: Array, upper: Array, free: int) -> None:
         self._score, self._start, self._upper, self._free = score, start, upper, free
         self._point: Array | None = None
-        self.evaluations = 0
         self.best_design = start
         self._best = (np.inf, np.inf)
 
@@ -124,7 +129,6 @@ class _Descent:
         designs = np.broadcast_to(self._start, (len(points), self._start.size)).copy()
         designs[:, : self._free] = points * self._upper[: self._free]
         objectives, margins = self._score(designs)
-        self.evaluations += len(designs)
         self._remember(designs[0], float(objectives[0]), margins[0])
         if not (np.all(np.isfinite(objectives)) and np.all(np.isfinite(margins))):
             raise _NotMeasurableError

@@ -41,7 +41,8 @@ class GenerationRecord(NamedTuple):
     best : best region height error of a feasible formation so far [m]; `inf` before the first.
     mean : mean region height error of the generation's feasible formations [m]; NaN without any.
     feasible_fraction : share of the generation that is feasible.
-    refinement : whether this is the local refinement, not a generation.
+    refinement : whether this is the local refinement, which is no generation: its mean and
+        feasible fraction are NaN.
     """
 
     generation: int
@@ -90,6 +91,7 @@ def search(
     rng: np.random.Generator,
     start: Array | None = None,
     on_generation: Callable[[GenerationRecord], None] | None = None,
+    should_stop: Callable[[], bool] = lambda: False,
 ) -> SearchResult:
     """Search the design space for the smallest region height error within the limits.
 
@@ -99,15 +101,17 @@ def search(
     space : the designs that are searched.
     settings : of the search.
     rng : the only source of randomness.
-    start : (P0, D) — designs that join the first generation.
+    start : (P0, D) — designs that join the first generation, at most the population; clipped to
+        the box of the space.
     on_generation : called after each generation.
+    should_stop : asked after each generation and step of the refinement; True ends the search.
 
     Returns
     -------
-    SearchResult — never worse than a feasible `start`. A KeyboardInterrupt ends the search and
-    returns the best so far, marked `interrupted`.
+    SearchResult — never worse than a feasible `start` within the box. Stopped by `should_stop` or
+    by a KeyboardInterrupt, it is the best so far, marked `interrupted`.
     """
-    run = _Search(problem, space, on_generation)
+    run = _Search(problem, space, on_generation, should_stop)
     interrupted = False
     try:
         for generation in generations(
@@ -119,14 +123,13 @@ def search(
             start=start,
         ):
             run.record(generation)
+            if should_stop():
+                raise KeyboardInterrupt
     except KeyboardInterrupt:
         interrupted = True
     genetic_objective = run.best_objective if run.best_feasible else np.inf
-    try:
-        if not interrupted:
-            run.refine_best(settings.refinements)
-    except KeyboardInterrupt:
-        interrupted = True
+    if not interrupted:
+        interrupted = run.refine_best(settings.refinements)
     return run.result(genetic_objective, interrupted=interrupted)
 
 
@@ -137,6 +140,7 @@ class _Search:
     problem: Problem
     space: DesignSpace
     on_generation: Callable[[GenerationRecord], None] | None
+    should_stop: Callable[[], bool]
     evaluations: int = 0
     history: list[GenerationRecord] = field(default_factory=list)
     candidates: list[tuple[float, float, Array]] = field(default_factory=list)
@@ -173,33 +177,32 @@ class _Search:
             )
         )
 
-    def refine_best(self, count: int) -> None:
-        before = self.evaluations
-        for design in self._distant_candidates(count):
+    def refine_best(self, count: int) -> bool:
+        """Refine the best designs; return whether that was interrupted."""
+        interrupted = False
+        candidates = self._distant_candidates(count)
+        for design in candidates:
             outcome = refine(
-                self._score,
-                design,
-                upper=self.space.upper,
-                free=2 * self.space.satellites,
+                self._score, design, upper=self.space.upper, free=2 * self.space.satellites
             )
             evaluation = self.evaluate(outcome.design[None])
-            self._offer(
-                (
-                    float(evaluation.total_violation[0]),
-                    float(evaluation.objectives[0]),
-                    outcome.design,
-                )
-            )
-        if self.evaluations > before and self.history:
-            last = self.history[-1]
+            violation, objective = evaluation.total_violation, evaluation.objectives
+            self._offer((float(violation[0]), float(objective[0]), outcome.design))
+            interrupted = outcome.interrupted
+            if interrupted:
+                break
+        if candidates:
             self._append(
-                last._replace(
-                    generation=last.generation + 1,
+                GenerationRecord(
+                    generation=self.history[-1].generation + 1,
                     evaluations=self.evaluations,
                     best=self.best_objective if self.best_feasible else np.inf,
+                    mean=np.nan,
+                    feasible_fraction=np.nan,
                     refinement=True,
                 )
             )
+        return interrupted
 
     def result(self, genetic_objective: float, *, interrupted: bool) -> SearchResult:
         if self._best is None:  # interrupted before the first generation
@@ -216,6 +219,8 @@ class _Search:
         )
 
     def _score(self, designs: Array) -> tuple[Array, Array]:
+        if self.should_stop():
+            raise KeyboardInterrupt
         self.evaluations += len(designs)
         objectives, margins = self.problem.objectives_and_margins(self.space.states(designs))
         return objectives, np.concatenate([np.empty((len(designs), 0)), *margins], axis=-1)

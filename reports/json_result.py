@@ -88,6 +88,7 @@ def optimize_json(result: OptimizeResult) -> Json:
                 "best_m": finite(record.best),
                 "mean_m": finite(record.mean),
                 "feasible_fraction": finite(record.feasible_fraction),
+                "refinement": record.refinement,
             }
             for record in search.history
         ],

@@ -29,6 +29,7 @@ def run(study: OptimizeStudy, options: Options) -> Outcome:
         rng=np.random.default_rng(seed),
         start=None if setup.initial_design is None else setup.initial_design[None],
         on_generation=options.on_generation,
+        should_stop=options.should_stop,
     )
     names = setup.space.names
     initial = assess(setup.problem, setup.initial_states, label="initial", names=names)
@@ -40,8 +41,8 @@ def run(study: OptimizeStudy, options: Options) -> Outcome:
     if found.interrupted:
         warnings.insert(
             0,
-            f"The search was interrupted after {len(found.history)} generations: this is the best "
-            "so far, not the best there is.",
+            f"The search was interrupted after {found.evaluations} formations: this is the best so "
+            "far, not the best there is.",
         )
     result = OptimizeResult(
         problem=setup.problem,

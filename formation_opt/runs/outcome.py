@@ -19,11 +19,13 @@ class Options:
     seed : of the random generator; that of the study if None.
     on_start : called with the number of generations to come.
     on_generation : called after each.
+    should_stop : whether the user asked to stop.
     """
 
     seed: int | None = None
     on_start: Callable[[int], None] = lambda _: None
     on_generation: Callable[[GenerationRecord], None] = lambda _: None
+    should_stop: Callable[[], bool] = lambda: False
 
 
 class Outcome(NamedTuple):
