@@ -6,7 +6,7 @@ Loading needs neither scipy nor DEAP. `configs.build` does, and is imported by w
 from __future__ import annotations
 
 from .examples import example_names, example_path, example_text
-from .loader import LoadedStudy, load_study
+from .loader import LoadedStudy, effective_text, load_study
 from .messages import StudyError
 from .studies import STUDIES, EvaluateStudy, OptimizeStudy, Study, json_schema
 
@@ -17,6 +17,7 @@ __all__ = [
     "OptimizeStudy",
     "Study",
     "StudyError",
+    "effective_text",
     "example_names",
     "example_path",
     "example_text",

@@ -159,7 +159,8 @@ class ErrorsBlock(Block):
         ge=0,
         le=10_000,
         description="Standard deviation of the target's place along track; turned into an angle "
-        "by the mean slant range. Or give azimuth_deg.",
+        "by the mean slant range (by its ground part with held_constant: azimuth). Or give "
+        "azimuth_deg.",
     )
     azimuth_deg: Number | None = Field(
         default=None,

@@ -58,7 +58,7 @@ def build_problem(
         mean_motion=orbit.mean_motion,
         scene=scene,
         radar=radar,
-        errors=_errors(study.errors, radar, float(scene.slant_range.mean())),
+        errors=_errors(study.errors, radar, scene),
         constraints=_constraints(limits, critical),
     )
     return problem, critical
@@ -109,15 +109,16 @@ def _table(table: TableBlock) -> Scene:
     )
 
 
-def _errors(block: ErrorsBlock, radar: Radar, mean_slant_range: float) -> ErrorBudget:
+def _errors(block: ErrorsBlock, radar: Radar, scene: Scene) -> ErrorBudget:
     base = ErrorBudget.li2009(snr=radar.snr) if block.preset == "li2009" else ErrorBudget()
+    held = base.held_constant if block.held_constant is None else HeldConstant(block.held_constant)
     azimuth = None if block.azimuth_deg is None else math.radians(block.azimuth_deg)
     if block.azimuth_on_ground_m is not None:
-        azimuth = block.azimuth_on_ground_m / mean_slant_range
+        azimuth = block.azimuth_on_ground_m / _azimuth_lever(scene, held)
     synchronization = (
         None if block.synchronization_deg is None else math.radians(block.synchronization_deg)
     )
-    held, lost, weighting = block.held_constant, block.baseline_decorrelation, block.weighting
+    lost, weighting = block.baseline_decorrelation, block.weighting
     phase_std = block.phase_std_deg
     return replace(
         base,
@@ -136,9 +137,19 @@ def _errors(block: ErrorsBlock, radar: Radar, mean_slant_range: float) -> ErrorB
         baseline_decorrelation=(
             base.baseline_decorrelation if lost is None else BaselineDecorrelation(lost)
         ),
-        held_constant=base.held_constant if held is None else HeldConstant(held),
+        held_constant=held,
         phase_std=base.phase_std if phase_std is None else math.radians(phase_std),
     )
+
+
+def _azimuth_lever(scene: Scene, held: HeldConstant) -> float:
+    """Meters along track on the ground for each radian of azimuth error, mean over the scene.
+
+    The angle is of the line of sight itself; in Li 2009's form it turns about nadir.
+    """
+    if held is HeldConstant.AZIMUTH:
+        return float(np.mean(scene.slant_range * np.sin(scene.look_angle)))
+    return float(np.mean(scene.slant_range))
 
 
 def _source(

@@ -5,15 +5,38 @@ from __future__ import annotations
 import hashlib
 import re
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
-from pydantic import ValidationError
+import yaml
+from pydantic import BaseModel, ValidationError
 
 from .examples import example_names
 from .explain import explain
 from .messages import Finding, closest, did_you_mean, show, study_error
 from .reader import MAX_BYTES, read_document
 from .studies import DEFAULT_KIND, STUDIES, Study
+
+
+def effective_text(study: Study) -> str:
+    """The study with every default filled in, as YAML that loads to an equal study.
+
+    Parameters
+    ----------
+    study : a validated study.
+    """
+    content = _said(study)
+    return yaml.safe_dump(content, sort_keys=False, allow_unicode=True, default_flow_style=None)
+
+
+def _said(value: Any) -> Any:
+    """Plain data of a block; keys that are absent by default, and absent here, are left out."""
+    if isinstance(value, BaseModel):
+        return {
+            name: _said(getattr(value, name))
+            for name, field in type(value).model_fields.items()
+            if getattr(value, name) is not None or field.default is not None
+        }
+    return [_said(item) for item in value] if isinstance(value, tuple) else value
 
 
 class LoadedStudy(NamedTuple):

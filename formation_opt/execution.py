@@ -9,7 +9,7 @@ from collections.abc import Callable, Collection
 from datetime import UTC, datetime
 from pathlib import Path
 
-from configs import LoadedStudy
+from configs import LoadedStudy, effective_text
 from reports import Provenance, StudyInfo, write_report
 
 from . import provenance, terminal
@@ -75,6 +75,7 @@ def _execute(
         description=study.description,
         source_text=loaded.source_text,
         config_sha256=loaded.sha256,
+        effective=effective_text(study),
         orbit_altitude=outcome.orbit.altitude,
         inclination=outcome.orbit.inclination,
     )

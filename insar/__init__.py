@@ -8,6 +8,7 @@ from .baselines import (
     PairGeometry,
     critical_baseline,
     height_of_ambiguity,
+    pair_critical_baseline,
     pair_geometry,
     scene_critical_baseline,
 )
@@ -23,7 +24,7 @@ from .errors import (
 )
 from .geometry import line_of_sight
 from .height import HeightError, HeightStatus, height_error, height_error_of
-from .phase_information import fisher_information
+from .phase_information import filtered_information, fisher_information, pair_phase_variance
 from .phase_model import PhaseModel, pair_coherence, phase_model
 from .radar import Radar, monostatic, one_transmitter, ping_pong
 from .scene import LookSide, Scene
@@ -52,6 +53,7 @@ __all__ = [
     "Weighting",
     "common_band",
     "critical_baseline",
+    "filtered_information",
     "fisher_information",
     "height_error",
     "height_error_of",
@@ -60,7 +62,9 @@ __all__ = [
     "monostatic",
     "one_transmitter",
     "pair_coherence",
+    "pair_critical_baseline",
     "pair_geometry",
+    "pair_phase_variance",
     "phase_model",
     "ping_pong",
     "scene_critical_baseline",

@@ -85,6 +85,21 @@ def scene_critical_baseline(scene: Scene, radar: Radar, *, multiplicity: float =
     )
 
 
+def pair_critical_baseline(scene: Scene, radar: Radar) -> Array:
+    """Critical baseline of each pair of images in each segment.
+
+    Parameters
+    ----------
+    scene : the S segments.
+    radar : the radar, whose `image_pairs` order the K pairs.
+
+    Returns
+    -------
+    (S, K) — halved for a pair of monostatic images [m].
+    """
+    return scene_critical_baseline(scene, radar)[:, None] / radar.pair_multiplicity
+
+
 def height_of_ambiguity(
     perpendicular_baseline: ArrayLike,
     *,

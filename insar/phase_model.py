@@ -8,7 +8,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.linalg import helmert
 
-from .baselines import image_projections, scene_critical_baseline, sensitivity
+from .baselines import (
+    image_projections,
+    pair_critical_baseline,
+    scene_critical_baseline,
+    sensitivity,
+)
 from .coherence import common_band
 from .errors import BaselineDecorrelation, ErrorBudget, Scale, SharedBy, Weighting
 from .phase_information import (
@@ -131,8 +136,8 @@ def pair_coherence(
     coherence : (..., S, K) — zero where a pair has no common band.
     looks : (..., S, K) — effective number of looks.
     """
-    critical = scene_critical_baseline(scene, radar)[:, None] / radar.pair_multiplicity
-    shift = np.asarray(perpendicular_baseline, dtype=np.float64) / critical
+    baseline = np.asarray(perpendicular_baseline, dtype=np.float64)
+    shift = baseline / pair_critical_baseline(scene, radar)
     return _coherence_and_looks(common_band(0.0, shift), radar, baseline_decorrelation)
 
 

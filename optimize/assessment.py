@@ -13,8 +13,8 @@ from insar import (
     HeightError,
     UnwrappingLadder,
     pair_coherence,
+    pair_critical_baseline,
     pair_geometry,
-    scene_critical_baseline,
     unwrapping_ladder,
 )
 from insar.unwrapping import bootstrap_failure
@@ -145,7 +145,7 @@ def assess(
     state = np.asarray(states, dtype=np.float64)
     population = problem.population(state[None])
     times = np.linspace(0.0, 2.0 * np.pi / problem.mean_motion, _ORBIT_SAMPLES)
-    positions = relative_positions(state, problem.scene.times, mean_motion=problem.mean_motion)
+    positions = population.positions[0]
     unwrapping = None
     if problem.constraints.prior_height_std is not None:
         prior = problem.constraints.prior_height_std
@@ -179,7 +179,7 @@ def _pairs(problem: Problem, positions: Array) -> tuple[ImagePair, ...]:
         radar=radar,
         baseline_decorrelation=errors.baseline_decorrelation,
     )
-    critical = scene_critical_baseline(scene, radar)[:, None] / radar.pair_multiplicity
+    critical = pair_critical_baseline(scene, radar)
     fraction = np.abs(geometry.perpendicular_baseline) / critical
     return tuple(
         ImagePair(

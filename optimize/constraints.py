@@ -15,14 +15,14 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from formation import min_separation, orbit_radius, relative_positions
+from formation import min_separation, orbit_radius
 from insar import (
     ErrorBudget,
     PhaseModel,
     Radar,
     Scene,
+    pair_critical_baseline,
     pair_geometry,
-    scene_critical_baseline,
     unwrapping_ladder,
 )
 
@@ -38,12 +38,14 @@ class Population(NamedTuple):
     Attributes
     ----------
     states : (P, N, 6) — RTN states at t = 0 [m, m/s].
+    positions : (P, S, N, 3) — RTN positions at the scene's times [m].
     model : their phase model.
     mean_motion : scalar — angular rate of the reference orbit [rad/s].
     scene, radar, errors : what they observe, and how.
     """
 
     states: Array
+    positions: Array
     model: PhaseModel
     mean_motion: float
     scene: Scene
@@ -262,15 +264,12 @@ def _unwrapping_failure(prior_height_std: float) -> Callable[[Population], Array
 
 
 def _baseline_fraction(population: Population) -> Array:
-    positions = relative_positions(
-        population.states, population.scene.times, mean_motion=population.mean_motion
-    )
     pairs = pair_geometry(
-        positions,
+        population.positions,
         population.scene,
         radar=population.radar,
         held_constant=population.errors.held_constant,
     )
-    critical = scene_critical_baseline(population.scene, population.radar)[:, None]
-    fraction = np.abs(pairs.perpendicular_baseline) * population.radar.pair_multiplicity / critical
+    critical = pair_critical_baseline(population.scene, population.radar)
+    fraction = np.abs(pairs.perpendicular_baseline) / critical
     return fraction.reshape(*fraction.shape[:-2], -1)

@@ -25,7 +25,11 @@ def findings(problem: Problem, assessment: Assessment) -> tuple[str, ...]:
     -------
     Sentences for an InSAR engineer; none if there is nothing to warn of.
     """
-    return (*_of_the_formation(problem, assessment), *_of_the_model(problem))
+    return (
+        *_of_the_formation(problem, assessment),
+        *_of_the_model(problem),
+        _of_safety(assessment),
+    )
 
 
 def _of_the_formation(problem: Problem, assessment: Assessment) -> list[str]:
@@ -90,9 +94,21 @@ def _of_the_model(problem: Problem) -> list[str]:
             "Height sensitivity is taken at constant azimuth angle (Li 2009), not at constant "
             "range and Doppler as a SAR image has it; away from broadside they differ."
         )
-    notes.append(
-        "The separations hold for unperturbed linear motion. Both circular families are passively "
-        "unsafe: their radial-normal separation passes through zero, and J2 shifts the along-track "
-        "phases that keep the satellites apart."
-    )
     return notes
+
+
+def _of_safety(assessment: Assessment) -> str:
+    """Whether along-track phasing alone keeps a pair apart."""
+    first, second = assessment.separation_pairs.T
+    relative = assessment.states[second] - assessment.states[first]
+    radial, normal, radial_rate, normal_rate = relative[:, [0, 2, 3, 5]].T
+    # The radial-normal motion of a pair is an ellipse about zero; without area it crosses zero.
+    area = np.abs(radial * normal_rate - normal * radial_rate)
+    size = np.hypot(radial, normal) * np.hypot(radial_rate, normal_rate)
+    note = "The separations hold for unperturbed linear motion."
+    if np.any(area <= 1e-6 * size):
+        note += (
+            " The formation is passively unsafe: the radial-normal separation of a pair passes "
+            "through zero, and J2 shifts the along-track phases that keep the satellites apart."
+        )
+    return note

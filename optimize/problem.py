@@ -119,6 +119,7 @@ class Problem:
         positions = relative_positions(state, self.scene.times, mean_motion=self.mean_motion)
         return Population(
             states=state,
+            positions=positions,
             model=phase_model(positions, self.scene, radar=self.radar, errors=self.errors),
             mean_motion=self.mean_motion,
             scene=self.scene,

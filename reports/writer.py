@@ -33,7 +33,8 @@ def write_report(
 
     Returns
     -------
-    Paths of the files written. Each is complete or absent, never half written.
+    Paths of the files written. Each is complete or absent, never half written; a report of an
+    earlier run in a format that is not asked for is removed.
 
     Raises
     ------
@@ -45,12 +46,14 @@ def write_report(
     unknown = sorted(set(formats) - set(FORMATS))
     if unknown:
         raise ValueError(f"formats = {unknown!r} is unknown; choose of {', '.join(FORMATS)}")
+    # All is rendered before anything is replaced: results and reports of two runs never mix.
+    files = list(_files(result, study, provenance, formats))
     out.mkdir(parents=True, exist_ok=True)
-    written = []
-    for name, content in _files(result, study, provenance, formats):
+    for stale in {f"report.{name}" for name in FORMATS} - {name for name, _ in files}:
+        (out / stale).unlink(missing_ok=True)
+    for name, content in files:
         _replace(out / name, content)
-        written.append(out / name)
-    return tuple(written)
+    return tuple(out / name for name, _ in files)
 
 
 def _files(

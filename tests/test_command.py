@@ -190,6 +190,72 @@ def test_list_and_schema(capsys):
     assert json.loads(capsys.readouterr().out)
 
 
+def test_same_bytes_with_any_number_of_blas_threads(study, tmp_path):
+    documents = []
+    for threads in ("1", "2"):
+        out = tmp_path / threads
+        subprocess.run(
+            [sys.executable, "-m", "formation_opt", study(), "--out", out, "--format", "none"],
+            env={**os.environ, "OPENBLAS_NUM_THREADS": threads, "OMP_NUM_THREADS": threads},
+            check=True,
+            capture_output=True,
+        )
+        document = json.loads((out / "result.json").read_text(encoding="utf-8"))
+        del document["provenance"]
+        documents.append(document)
+    assert documents[0] == documents[1]
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")
+@pytest.mark.parametrize("arguments", [["--list"], ["--schema"], ["STUDY"]])
+@pytest.mark.parametrize("sink", ["full", "closed"])
+def test_a_failing_standard_output_changes_no_exit_code(arguments, sink, study, tmp_path):
+    arguments = [study() if a == "STUDY" else a for a in arguments]
+    command = [sys.executable, "-m", "formation_opt", *arguments, "--format", "none"]
+    command += ["--out", str(tmp_path / "o")]
+    environment = {**os.environ, "PYTHONIOENCODING": "ascii"}
+    if sink == "full":
+        with Path("/dev/full").open("w") as full:
+            done = subprocess.run(
+                command, stdout=full, stderr=subprocess.PIPE, env=environment, check=False
+            )
+    else:
+        reader, writer = os.pipe()
+        os.close(reader)
+        done = subprocess.run(
+            command, stdout=writer, stderr=subprocess.PIPE, env=environment, check=False
+        )
+        os.close(writer)
+    assert done.returncode == 0
+    assert b"Traceback" not in done.stderr
+    assert (b"standard output cannot be written" in done.stderr) == (sink == "full")
+
+
+def test_a_report_of_an_earlier_run_does_not_stay_beside_new_results(study, tmp_path):
+    out = tmp_path / "o"
+    assert main([study(), "--out", str(out), "--quiet"]) == 0
+    assert (out / "report.pdf").exists()
+    assert main([study(), "--out", str(out), "--quiet", "--format", "html"]) == 0
+    assert not (out / "report.pdf").exists()
+    assert (out / "report.html").exists()
+
+
+@pytest.mark.skipif(os.name == "nt", reason="POSIX signals")
+def test_interrupt_while_the_report_is_written_loses_nothing(study, tmp_path, monkeypatch):
+    import formation_opt.execution as execution
+
+    original = execution.write_report
+
+    def interrupted(*arguments, **options):
+        os.kill(os.getpid(), signal.SIGINT)
+        return original(*arguments, **options)
+
+    monkeypatch.setattr(execution, "write_report", interrupted)
+    out = tmp_path / "o"
+    assert main([study(), "--out", str(out), "--quiet"]) == 0
+    assert len(list(out.iterdir())) == 5
+
+
 @pytest.mark.skipif(os.name == "nt", reason="POSIX signals")
 def test_interrupt_keeps_the_best_so_far(study, tmp_path):
     long = QUICK.replace("generations: 10", "generations: 100000")

@@ -15,6 +15,7 @@ from configs import (
     STUDIES,
     EvaluateStudy,
     OptimizeStudy,
+    effective_text,
     example_names,
     example_path,
     json_schema,
@@ -312,14 +313,12 @@ def test_the_shipped_examples_are_these():
 def test_an_example_survives_the_round_trip_through_yaml(name, tmp_path):
     original = load_study(example_path(name)).study
     copy = tmp_path / "copy.yaml"
-    copy.write_text(
-        yaml.safe_dump(original.model_dump(mode="json"), allow_unicode=True), encoding="utf-8"
-    )
+    copy.write_text(effective_text(original), encoding="utf-8")
     assert load_study(copy).study == original
     assert original.name == name
 
 
-def test_the_realistic_example_is_the_one_of_the_issue():
+def test_the_realistic_example_has_the_parameters_of_the_reference():
     setup = built("three_sat")
     problem = setup.problem
     assert problem.radar.wavelength == 0.031

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
@@ -94,12 +94,16 @@ def test_twelve_figures_of_li2009(case, li2009, li2009_scene, li2009_radar, mean
     )
     positions = relative_positions(states, li2009_scene.times, mean_motion=mean_motion)
     error = height_error(positions, li2009_scene, radar=li2009_radar, errors=ErrorBudget.li2009())
-    # Half a last printed digit, and 0.05 % for Table 2, whose angles are rounded to 0.01°: at 82°
-    # the azimuth term moves by 0.01°/8° = 0.1 % in some segments and averages out in the RMS.
-    digit = 0.05 if printed["error_m"]["rms"] > 40 and case == "space_initial" else 0.005
-    assert error.region == pytest.approx(printed["error_m"]["rms"], abs=digit + 5e-4 * 20)
-    assert error.total.min() == pytest.approx(printed["error_m"]["min"], abs=digit + 1e-3 * 20)
-    assert error.total.max() == pytest.approx(printed["error_m"]["max"], abs=digit + 1e-3 * 20)
+    for key, value in {
+        "rms": error.region,
+        "min": error.total.min(),
+        "max": error.total.max(),
+    }.items():
+        figure = printed["error_m"][key]
+        # Half a unit of the last printed digit; 0.1 % for the rounding of Table 2 (0.01° of 8°
+        # from broadside); at the optima 0.6 % for the phase noise, which the paper does not state.
+        tolerance = printed["half_digit_m"] + printed["model_uncertainty"] * figure
+        assert value == pytest.approx(figure, abs=tolerance), key
 
 
 def test_the_gain_of_li2009_is_an_artefact_of_its_covariance(
@@ -274,8 +278,7 @@ def test_information_form_against_explicit_inverse(formation, budget, images):
             nuisance={name: value[segment] for name, value in model.nuisance.items()},
             pair_variance={name: value[segment] for name, value in model.pair_variance.items()},
         )
-        if not all(np.all(np.isfinite(v)) for v in single.pair_variance.values()):
-            continue
+        assume(all(np.all(np.isfinite(v)) for v in single.pair_variance.values()))
         covariance, kz = explicit_covariance(single, radar)
         # Li 2009 eq. (7) where pairs are independent: R_ij = C_ij/(kz_i kz_j), e² = 1/(1ᵀR⁻¹1).
         information = kz @ np.linalg.solve(covariance, kz)
@@ -366,11 +369,12 @@ def test_squares_of_the_terms_add_up(formation, budget):
     assert np.all(error.relative <= error.total * (1 + 1e-9))
 
 
-@given(formations, st.sampled_from(JOINT_BUDGETS))
+@given(formations, st.sampled_from([JOINT_BUDGETS[0], JOINT_BUDGETS[2]]))
 def test_pairs_never_tell_less_than_the_joint_images(formation, budget):
-    """Counting N(N−1)/2 pairs as independent is optimistic (unfiltered pairs excepted)."""
-    if budget.baseline_decorrelation is BaselineDecorrelation.UNFILTERED:
-        return
+    """Counting N(N−1)/2 pairs as independent is optimistic.
+
+    Not so where unfiltered: a pair's own bound is then below its share of the joint one.
+    """
     pairs = dataclasses.replace(budget, weighting=Weighting.PAIRS)
     radar = radar_for(one_transmitter(3))
     joint = height_error(spread(formation), SCENE, radar=radar, errors=budget)
