@@ -116,7 +116,7 @@ def de_deb(task: Task) -> None:
 
 
 def de_penalty(task: Task, *, weight: float = 3.0) -> None:
-    """The error, raised in proportion to the violation; of weights 1, 3 and 10 the best."""
+    """The error, raised in proportion to the violation; of weights 3 and 10 the best."""
 
     def score(columns: Array) -> Array:
         evaluation = task.problem.evaluate(task.space.states(columns.T))

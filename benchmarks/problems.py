@@ -124,23 +124,21 @@ def landscapes(*, quick: bool = False) -> tuple[Landscape, ...]:
     )
     limits = Constraints(max_radius=1211.2, min_separation=100.0)
 
-    def settings(generations: int) -> SearchSettings:
-        if quick:
-            return SearchSettings(GeneticSettings(population=60, generations=10), refinements=1)
-        return SearchSettings(GeneticSettings(population=60, generations=generations))
+    genetic = GeneticSettings(population=60, generations=10 if quick else 40)
+    settings = SearchSettings(genetic, refinements=1 if quick else 16)
 
     return (
         Landscape(
-            "realistic, 3 satellites", *realistic_problem(3), settings(100), best_known=0.25289517
+            "realistic, 3 satellites", *realistic_problem(3), settings, best_known=0.25289517
         ),
         Landscape(
-            "realistic, 4 satellites", *realistic_problem(4), settings(150), best_known=0.11464157
+            "realistic, 4 satellites", *realistic_problem(4), settings, best_known=0.11464157
         ),
         # No decorrelation: the optimum is known by proof (a convex certificate), to six decimals.
         Landscape(
             "dumbbell, 4 satellites",
             *paper_problem(4, errors=shared, constraints=limits),
-            settings(100),
+            settings,
             best_known=0.813011,
         ),
     )

@@ -103,7 +103,7 @@ def _row(many: list[Run], best_known: float, reference: Summary) -> str:
 
 
 def main() -> None:
-    """Run the comparison: about 15 minutes for 20 seeds."""
+    """Run the comparison: about 12 minutes for 20 seeds."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--seeds", type=int, default=20, help="runs of each peer (default 20)")
     parser.add_argument("--quick", action="store_true", help="three short runs each, in 20 s")

@@ -15,10 +15,16 @@ from .base import wrong
 from .blocks import RadarBlock
 from .formations import ComparedFormation, RadialStart, Satellite
 from .messages import KeyPath, did_you_mean, show
-from .scenes import SceneBlock, StripBlock, check_slope
+from .scenes import SceneBlock, StripBlock, TableBlock, check_slope
+
+RESULT_LABELS = ("initial", "best", "formation")
+"""Labels that reports give to the formations of the study itself."""
 
 MAX_ENTRIES = 50_000_000
 """Entries of the largest array of a run; a few such arrays of 0.4 GB live at a time."""
+
+_ALTITUDE_MARGIN = 0.97
+"""Mountains, and an altitude counted from the equatorial radius, bring targets nearer by this."""
 
 _GRAZING = math.radians(89.0)
 
@@ -37,6 +43,18 @@ def check_strip(strip: StripBlock, orbit: Orbit) -> None:
             "choose a smaller look angle",
         )
     check_slope(strip.slope_deg, (math.degrees(math.asin(sine)),), at)
+
+
+def check_table(table: TableBlock, orbit: Orbit) -> None:
+    """No target is nearer than the ground below the orbit."""
+    altitude = orbit.altitude / 1e3
+    for segment, slant_range in enumerate(table.slant_range_km):
+        if slant_range < _ALTITUDE_MARGIN * altitude:
+            raise wrong(
+                ("scene", "table", "slant_range_km", segment),
+                f"is less than the altitude of the orbit, {altitude:g}",
+                "check both, and their units",
+            )
 
 
 def check_names(names: Sequence[str]) -> None:
@@ -140,8 +158,13 @@ def check_size(radar: RadarBlock, scene: SceneBlock, satellites: int, population
 
 
 def check_labels(compared: Sequence[ComparedFormation]) -> None:
-    """No two compared formations have one label."""
+    """No two formations of the report have one label."""
     labels = [formation.label for formation in compared]
+    for index, label in enumerate(labels):
+        if label in RESULT_LABELS:
+            raise wrong(
+                ("compare", index, "label"), "is what the result is called", "choose another label"
+            )
     for index, label in enumerate(labels):
         if label in labels[:index]:
             raise wrong(("compare", index, "label"), "is used twice", "choose another label")

@@ -109,7 +109,7 @@ class SearchBlock(Block):
         default=60, ge=4, le=10_000, description="Formations of a generation."
     )
     generations: Whole = Field(
-        default=100, ge=1, le=100_000, description="Generations after the first."
+        default=40, ge=1, le=100_000, description="Generations after the first."
     )
     seed: Whole = Field(
         default=1,
@@ -118,7 +118,7 @@ class SearchBlock(Block):
         description="Seed of the random numbers; the same seed gives the same result.",
     )
     refinements: Whole = Field(
-        default=8,
+        default=16,
         ge=0,
         le=1000,
         description="How many of the best, mutually distant designs are refined; 0 for none.",

@@ -27,8 +27,8 @@ _GUESSES: dict[str, list[_Guess]] = {
     "_deg": [("radians", math.degrees)],
     "_db": [("linear scale", lambda value: 10.0 * math.log10(value))],
     "_s": [("milliseconds", lambda value: value / 1e3)],
-    "probability": [("percent", lambda value: value / 1e2)],
-    "coherence": [("percent", lambda value: value / 1e2)],
+    "probability": [("percent", lambda value: value / 1e2 if value >= 2.0 else math.nan)],
+    "coherence": [("percent", lambda value: value / 1e2 if value >= 2.0 else math.nan)],
 }
 """For the end of a key: what its author may have written in, and the conversion to the key's unit.
 
@@ -56,6 +56,8 @@ def remedy(value: Any, key: str, schema: Schema) -> str:
         return _for_number_in_text(value)
     if isinstance(value, str) and "string" in kinds:
         words = [str(word) for choice in choices(schema) for word in choice.get("enum", [])]
+        if "one_transmitter" in words and value.lower() in {"bistatic", "single", "single_pass"}:
+            return "did you mean 'one_transmitter'?"
         return did_you_mean(value, words).strip() or "correct the text"
     if isinstance(value, int | float) and "string" in kinds:
         return f"as a text it needs quotes: '{show(value)}'"

@@ -19,6 +19,7 @@ from .checks import (
     check_names,
     check_size,
     check_strip,
+    check_table,
 )
 from .formations import ComparedFormation, EvaluatedFormation, SearchedFormation
 from .limits import LimitsBlock, SearchBlock, SearchLimitsBlock
@@ -62,6 +63,8 @@ class FormationStudy(Study):
         orbit = self.reference_orbit
         if self.scene.strip is not None:
             check_strip(self.scene.strip, orbit)
+        if self.scene.table is not None:
+            check_table(self.scene.table, orbit)
         check_names(names)
         check_images(self.radar, names)
         check_labels(self.compare)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -16,6 +18,7 @@ Velocities printed with four decimals (0.1 mm/s) already carry 0.85 m per orbit 
 """
 
 
+@lru_cache(maxsize=64)
 def satellite_pairs(count: int) -> NDArray[np.intp]:
     """Index pairs (i, j), i < j, in the order used everywhere: (0,1), (0,2), …, (1,2), ….
 
@@ -27,7 +30,9 @@ def satellite_pairs(count: int) -> NDArray[np.intp]:
     -------
     (K, 2) — K = count·(count − 1)/2 pairs.
     """
-    return np.stack(np.triu_indices(count, k=1), axis=-1)
+    pairs = np.stack(np.triu_indices(count, k=1), axis=-1)
+    pairs.setflags(write=False)  # it is shared
+    return pairs
 
 
 def min_separation(states: ArrayLike, *, mean_motion: float) -> Array:

@@ -85,7 +85,7 @@ def _parser() -> argparse.ArgumentParser:
         help="a study file (with a '/' or ending in .yaml), or the name of a shipped example",
     )
     parser.add_argument(
-        "--out", type=Path, metavar="DIR", help="output folder (default: out/<study name>)"
+        "--out", type=_folder, metavar="DIR", help="output folder (default: out/<study name>)"
     )
     parser.add_argument(
         "--seed", type=_seed, metavar="N", help="random seed, instead of the study's"
@@ -110,9 +110,15 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
+def _folder(text: str) -> Path:
+    if not text.strip():
+        raise argparse.ArgumentTypeError("the folder's name is empty; '.' is the current one")
+    return Path(text)
+
+
 def _seed(text: str) -> int:
-    if not text.isdecimal():
-        raise argparse.ArgumentTypeError(f"{text!r} must be a whole number, 0 or above")
+    if not (text.isascii() and text.isdecimal() and int(text) < 2**32):
+        raise argparse.ArgumentTypeError(f"{text!r} must be a whole number from 0 to {2**32 - 1}")
     return int(text)
 
 
@@ -167,6 +173,11 @@ def _run(options: argparse.Namespace) -> int:
     name: str = options.study
     try:
         is_file = os.sep in name or "/" in name or name.endswith((".yaml", ".yml"))
+        if not is_file and Path(name).is_file():
+            return _fail(
+                f"{name} is a file, but a name without '/' and .yaml is a shipped example's; "
+                f"write ./{name}"
+            )
         loaded = load_study(Path(name) if is_file else example_path(name))
     except StudyError as error:
         return _fail(str(error))
@@ -191,7 +202,7 @@ def _run(options: argparse.Namespace) -> int:
     if outcome.interrupted:
         return _fail("interrupted; the report holds the best so far", INTERRUPTED)
     if outcome.blocked is not None:
-        return _fail(f"no feasible design was found. {outcome.blocked}", INFEASIBLE)
+        return _fail(f"no feasible design was found: {outcome.blocked}", INFEASIBLE)
     return DONE
 
 

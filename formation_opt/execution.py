@@ -111,7 +111,7 @@ def _make_writable(out: Path) -> None:
 
 
 def _unwritable(out: Path, error: OSError) -> str:
-    return (
-        f"the output folder {out} cannot be written: {error.strerror or error}; "
-        "choose another with --out"
-    )
+    reason = error.strerror or str(error)
+    if isinstance(error, FileExistsError | NotADirectoryError):
+        reason = "a file of that name is in the way"
+    return f"the output folder {out} cannot be written: {reason}; choose another with --out"

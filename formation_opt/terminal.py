@@ -35,7 +35,7 @@ def progress(
         yield Options(seed=seed, should_stop=should_stop)
         return
     with Progress(
-        TextColumn("searching"),
+        TextColumn("{task.description}"),
         BarColumn(),
         TaskProgressColumn(),
         TimeElapsedColumn(),
@@ -43,14 +43,16 @@ def progress(
         console=console,
         transient=True,
     ) as bar:
-        task = bar.add_task("search", total=None, best="")
+        task = bar.add_task("searching", total=None, best="")
 
         def start(generations: int) -> None:
-            bar.update(task, total=generations + 1)
+            bar.update(task, total=generations + 2)  # the first one, and the refinement
 
         def advance(record: GenerationRecord) -> None:
             best = f"best {_meters(record.best)}" if np.isfinite(record.best) else "none feasible"
             bar.update(task, advance=1, best=best)
+            if bar.tasks[task].remaining == 1:
+                bar.update(task, description="refining")
 
         yield Options(seed=seed, on_start=start, on_generation=advance, should_stop=should_stop)
 

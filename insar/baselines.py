@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -139,6 +140,7 @@ def height_of_ambiguity(
     return height
 
 
+@lru_cache(maxsize=16)  # a scene is immutable and hashes by identity
 def sensitivity(scene: Scene, held_constant: HeldConstant) -> Sensitivity:
     """Sensitivity directions of each segment of a scene.
 
@@ -183,7 +185,8 @@ class PairGeometry(NamedTuple):
     Attributes
     ----------
     perpendicular_baseline : (..., S, K) — signed baseline along the height direction, between
-        the satellites: not doubled for a monostatic pair [m].
+        the satellites: not doubled for a monostatic pair. Of images that share neither their
+        transmitter nor their kind, the difference of the phase centers p_tx + p_rx [m].
     azimuth_baseline : (..., S, K) — signed baseline along the azimuth direction, likewise [m].
     height_of_ambiguity : (..., S, K) — height that turns the phase once; `inf` at zero [m].
     """

@@ -6,7 +6,6 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.linalg import helmert
 
 from .baselines import (
     image_projections,
@@ -78,10 +77,7 @@ def phase_model(
 
     factors: dict[str, Array] = {}
     if errors.position.std > 0.0:
-        # Errors relative to the fleet's mean, in an orthonormal basis: no phase sees a common
-        # shift, and with it the shared system of `height_error_of` would be near singular.
-        relative = helmert(radar.satellite_count).T
-        factors["position"] = wavenumber * errors.position.std * radar.incidence_matrix @ relative
+        factors["position"] = wavenumber * errors.position.std * radar.relative_incidence
     if errors.azimuth.std > 0.0:
         factors["azimuth"] = wavenumber * errors.azimuth.std * projected[..., 1:2]
     if errors.synchronization.std > 0.0:

@@ -8,6 +8,7 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.linalg import helmert
 
 Array = NDArray[np.float64]
 Image = tuple[int, int]
@@ -90,6 +91,15 @@ class Radar:
             matrix[row, transmitter] += 1.0
             matrix[row, receiver] += 1.0
         return matrix
+
+    @cached_property
+    def relative_incidence(self) -> Array:
+        """`incidence_matrix` for shifts relative to the fleet's mean, in an orthonormal basis.
+
+        (M, N − 1). No phase sees a common shift, and carrying it along would leave the shared
+        system of `height_error_of` near singular.
+        """
+        return np.asarray(self.incidence_matrix @ helmert(self.satellite_count).T)
 
     @cached_property
     def pair_multiplicity(self) -> Array:

@@ -88,30 +88,42 @@ def unwrapping_ladder(model: PhaseModel, *, prior_height_std: float) -> Unwrappi
     Teunissen 1998, doi:10.1007/s001900050199: P = Π(2Φ(1/(2σ_i)) − 1) over the conditional
     deviations σ_i [cycles]. The greedy order minimizes the worst rung.
     """
-    float_covariance = _float_covariance(model, prior_height_std)
-    lead, count = float_covariance.shape[:-2], float_covariance.shape[-1]
-    group = np.broadcast_to(np.arange(count), (*lead, count)).copy()
-    pairs = np.empty((*lead, count - 1, 2), dtype=np.intp)
-    cycle_std = np.empty((*lead, count - 1))
+    covariance = _float_covariance(model, prior_height_std)
+    lead, count = covariance.shape[:-2], covariance.shape[-1]
+    covariance = covariance.reshape(-1, count, count)
+    case, index = np.arange(len(covariance)), np.arange(count)
+    own = covariance[:, index, index]
+    variance = own[:, :, None] + own[:, None, :] - 2.0 * covariance  # of the difference of two
+    variance[:, index, index] = np.inf
+    rounding = 1e-14 * own.max(axis=-1)
+    image = np.broadcast_to(index, own.shape).copy()
+    pairs = np.empty((len(case), count - 1, 2), dtype=np.intp)
+    cycle_variance = np.empty((len(case), count - 1))
     for rung in range(count - 1):
-        diagonal = np.einsum("...ii->...i", float_covariance)
-        variance = diagonal[..., :, None] + diagonal[..., None, :] - 2.0 * float_covariance
-        joined = group[..., :, None] == group[..., None, :]
-        variance = np.where(joined, np.inf, np.maximum(variance, 0.0)).reshape(*lead, -1)
-        best = np.argmin(variance, axis=-1)
-        first, second = np.divmod(best, count)
-        smallest = np.take_along_axis(variance, best[..., None], axis=-1)
-        pairs[..., rung, 0], pairs[..., rung, 1] = first, second
-        cycle_std[..., rung] = np.sqrt(smallest[..., 0])
+        last = count - 1 - rung
+        surest = np.argmin(variance.reshape(len(case), -1), axis=-1)
+        first, second = np.divmod(surest, last + 1)
+        smallest = variance[case, first, second]
+        pairs[:, rung, 0], pairs[:, rung, 1] = image[case, first], image[case, second]
+        cycle_variance[:, rung] = smallest
+        if last == 1:
+            break
         # Knowing the cycle of this pair conditions all others; one known already, up to rounding,
         # tells nothing new.
-        gain = _column(float_covariance, second) - _column(float_covariance, first)
-        rounding = 1e-14 * np.max(diagonal, axis=-1, keepdims=True)
-        known = np.where(smallest > rounding, smallest, np.inf)[..., None]
-        float_covariance = float_covariance - gain[..., :, None] * gain[..., None, :] / known
-        first_group = np.take_along_axis(group, first[..., None], axis=-1)
-        second_group = np.take_along_axis(group, second[..., None], axis=-1)
-        group = np.where(group == second_group, first_group, group)
+        to_first, to_second = variance[case, first], variance[case, second]
+        to_first[case, first] = to_second[case, second] = 0.0
+        known = np.where(smallest > rounding, smallest, np.inf)[:, None]
+        gain = 0.5 * (to_first - to_second) / np.sqrt(known)
+        variance -= (gain[:, :, None] - gain[:, None, :]) ** 2
+        # From here on the two stand alike to all others: the first goes on for both, and the last
+        # image takes the place of the second.
+        variance[case, second] = variance[:, last]
+        variance[case, :, second] = variance[:, :, last]
+        variance[case, second, second] = np.inf
+        image[case, second] = image[:, last]
+        variance = variance[:, :last, :last]
+    pairs = pairs.reshape(*lead, count - 1, 2)
+    cycle_std = np.sqrt(np.maximum(cycle_variance, 0.0)).reshape(*lead, count - 1)
     failure = bootstrap_failure(cycle_std)
     return UnwrappingLadder(1.0 - failure, failure, pairs, cycle_std)
 
@@ -176,10 +188,3 @@ def _float_covariance(model: PhaseModel, prior_height_std: float) -> Array:
         relative += factor @ np.swapaxes(factor, -1, -2)
     relative += prior_height_std**2 * kz[..., :, None] * kz[..., None, :]
     return relative / (2.0 * np.pi) ** 2
-
-
-def _column(matrix: Array, index: NDArray[np.intp]) -> Array:
-    """Column of each matrix of a batch: (..., M)."""
-    picked = np.take_along_axis(matrix, index[..., None, None], axis=-1)
-    column: Array = picked[..., 0]
-    return column

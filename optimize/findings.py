@@ -4,10 +4,18 @@ from __future__ import annotations
 
 import numpy as np
 
-from insar import BaselineDecorrelation, HeightStatus, HeldConstant, Weighting
+from formation.constants import EARTH_GRAVITATIONAL_PARAMETER
+from insar import BaselineDecorrelation, HeightStatus, HeldConstant, SharedBy, Weighting
 
 from .assessment import Assessment
 from .problem import Problem
+
+_COLLISION = 10.0
+"""Closest approach below which a reader is warned where no limit says so [m]."""
+
+_DOPPLER_SHIFT = 300.0
+"""Shift of the Doppler spectra of a pair that is worth a warning [Hz]: 10 to 20 % of the band of a
+strip-map radar."""
 
 _DOUBTFUL_UNWRAPPING = 0.99
 """Below this probability in a segment, a reader is warned where no limit says so."""
@@ -67,6 +75,10 @@ def _of_the_formation(problem: Problem, assessment: Assessment) -> list[str]:
             f"{len(dark)} of {len(assessment.pairs)} pairs reach their critical baseline: they "
             "have no coherence and carry no information of their own."
         )
+    closest = float(assessment.separations.min())
+    if problem.constraints.min_separation is None and closest < _COLLISION:
+        notes.append(f"Two satellites come within {closest:.3g} m of each other: they may collide.")
+    notes += _of_doppler(problem, assessment)
     beyond = [pair for pair in assessment.pairs if np.any(pair.baseline_over_critical >= 1.0)]
     if beyond and not dark:
         notes.append(
@@ -74,6 +86,21 @@ def _of_the_formation(problem: Problem, assessment: Assessment) -> list[str]:
             "images have no coherence; the error model of this study counts them all the same."
         )
     return notes
+
+
+def _of_doppler(problem: Problem, assessment: Assessment) -> list[str]:
+    """Along-track baselines long enough to decorrelate, which the model does not count."""
+    speed = (EARTH_GRAVITATIONAL_PARAMETER * problem.mean_motion) ** (1.0 / 3.0)
+    baseline = np.array([np.abs(pair.azimuth_baseline) for pair in assessment.pairs])
+    # Seen from two places along track, a target's Doppler frequencies differ by B V/(λ r).
+    shift = baseline * speed / (problem.radar.wavelength * problem.scene.slant_range)
+    if shift.max() < _DOPPLER_SHIFT:
+        return []
+    return [
+        f"Satellites are up to {baseline.max():.0f} m apart along track, which shifts the Doppler "
+        f"spectra of a pair by {shift.max():.0f} Hz: the decorrelation is not counted here, and "
+        "the common Doppler band must be wide enough."
+    ]
 
 
 def _of_the_model(problem: Problem) -> list[str]:
@@ -84,6 +111,19 @@ def _of_the_model(problem: Problem) -> list[str]:
             "The weighting 'pairs' counts N images as N(N-1)/2 independent measurements: the "
             "height error is smaller than is possible. The weighting 'joint' is honest."
         )
+    drawn_apart = [
+        name
+        for name in ("position", "azimuth", "synchronization")
+        if getattr(errors, name).shared_by is SharedBy.PAIR and getattr(errors, name).std > 0.0
+    ]
+    if drawn_apart:
+        notes.append(
+            f"The {' and '.join(drawn_apart)} error is drawn anew for every pair, although the "
+            "images share it: formations can look tens of times worse, and gains larger, than "
+            "they are."
+        )
+    if np.allclose(problem.scene.incidence, problem.scene.look_angle, rtol=0.0, atol=1e-9):
+        notes.append("The Earth is taken as flat: the incidence equals the look angle.")
     if errors.baseline_decorrelation is BaselineDecorrelation.NONE:
         notes.append(
             "Decorrelation by the perpendicular baseline is neglected: long baselines look better "

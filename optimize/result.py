@@ -21,6 +21,7 @@ class OptimizeResult:
     best : the formation found; of the least violation where none is feasible.
     compare : other formations, assessed in the same way.
     search : how it was found.
+    notices : why the result is not what was asked for: nothing feasible, or interrupted.
     warnings : what a reader must know before using the result.
     """
 
@@ -30,6 +31,7 @@ class OptimizeResult:
     best: Assessment
     compare: tuple[Assessment, ...]
     search: SearchResult
+    notices: tuple[str, ...]
     warnings: tuple[str, ...]
 
 

@@ -17,6 +17,10 @@ from .refinement import refine
 
 Array = NDArray[np.float64]
 
+_DISTANCE = 0.3
+"""Distance of designs that are refined, in parts of the box, largest coordinate: starts 5 % apart
+end in the same optimum, and the evaluations of all but one are wasted (docs/performance.md)."""
+
 
 class SearchSettings(NamedTuple):
     """Settings of `search`.
@@ -28,7 +32,7 @@ class SearchSettings(NamedTuple):
     """
 
     genetic: GeneticSettings = GeneticSettings()
-    refinements: int = 8
+    refinements: int = 16
 
 
 class GenerationRecord(NamedTuple):
@@ -235,12 +239,14 @@ class _Search:
             self.on_generation(record)
 
     def _distant_candidates(self, count: int) -> list[Array]:
-        """The best designs seen, each at least 5 % of the box away from the better ones."""
+        """The best designs seen, each well away from the better ones: another basin, perhaps."""
         chosen: list[Array] = []
         for _, _, design in sorted(self.candidates, key=lambda c: c[:2]):
             if len(chosen) == count:
                 break
             scaled = design / self.space.upper
-            if all(np.max(np.abs(scaled - other / self.space.upper)) > 0.05 for other in chosen):
+            if all(
+                np.max(np.abs(scaled - other / self.space.upper)) > _DISTANCE for other in chosen
+            ):
                 chosen.append(design)
         return chosen

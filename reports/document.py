@@ -81,7 +81,7 @@ class Column(NamedTuple):
     key : column of the frame.
     heading : its name, in words or the symbol of the field.
     unit : its unit, empty for none.
-    show : formats the whole column, so that its numbers get the same decimals; None for text.
+    show : formats the whole column; None for text.
     """
 
     key: str

@@ -93,7 +93,7 @@ def optimize_json(result: OptimizeResult) -> Json:
             for record in search.history
         ],
         "certificate": None,
-        "warnings": list(result.warnings),
+        "warnings": [*result.notices, *result.warnings],
     }
 
 

@@ -13,6 +13,12 @@ from optimize import Assessment, ConstraintReport, FailureLimit, Problem
 ACTIVE_MARGIN = 1e-3
 """Margin, in parts of the limit, below which a limit that is kept counts as active."""
 
+ACTIVE_FAILURE_MARGIN = 1e-2
+"""The same for a probability, in parts of the failure that its limit allows."""
+
+_MOST_SATELLITES_JOINED = 10
+"""Satellites of a figure that draws the baseline of every two."""
+
 
 class Shown(NamedTuple):
     """A formation as a figure shows it.
@@ -71,10 +77,13 @@ def unmeasured_reason(assessment: Assessment) -> str | None:
 
 def active(report: ConstraintReport) -> bool:
     """Whether a limit is kept with next to no margin, so that it holds the design back."""
-    # A probability is limited through its failure: 0.9905 is not close to 0.99.
+    # A probability is limited through its failure: 0.99009 is close to 0.99, 0.9905 is not.
     limit = report.limit
-    scale = 1.0 - limit.value if isinstance(limit, FailureLimit) else limit.value
-    return report.satisfied and report.margin < ACTIVE_MARGIN * scale
+    if isinstance(limit, FailureLimit):
+        near = ACTIVE_FAILURE_MARGIN * (1.0 - limit.value)
+    else:
+        near = ACTIVE_MARGIN * limit.value
+    return report.satisfied and report.margin < near
 
 
 def broken(assessment: Assessment) -> tuple[ConstraintReport, ...]:
@@ -107,6 +116,29 @@ def pair_satellites(problem: Problem, images: tuple[int, int]) -> tuple[int, ...
     return tuple(int(index) for index in np.flatnonzero(first != second))
 
 
+class Baselines(NamedTuple):
+    """The baselines that an orbit figure draws.
+
+    Attributes
+    ----------
+    ends : the two satellites of each.
+    words : what they are, for a caption; empty where none is drawn.
+    """
+
+    ends: tuple[tuple[int, int], ...]
+    words: str
+
+
+def drawn_baselines(problem: Problem, assessment: Assessment) -> Baselines:
+    """Baselines of all satellites; of many, those of the unwrapping ladder only."""
+    if len(assessment.names) <= _MOST_SATELLITES_JOINED:
+        every = [(int(first), int(second)) for first, second in assessment.separation_pairs]
+        return Baselines(tuple(every), "the baselines between them")
+    ends = dict.fromkeys(pair_satellites(problem, images) for images in rung_numbers(assessment))
+    two = tuple((pair[0], pair[1]) for pair in ends if len(pair) == 2)
+    return Baselines(two, "the baselines of the unwrapping ladder" if two else "")
+
+
 def incoherent_pairs(assessment: Assessment) -> int:
     """How many pairs reach their critical baseline in some segment."""
     return sum(bool(np.any(pair.baseline_over_critical >= 1.0)) for pair in assessment.pairs)
@@ -115,6 +147,40 @@ def incoherent_pairs(assessment: Assessment) -> int:
 def decorrelation_neglected(problem: Problem) -> bool:
     """Whether the error model counts pairs beyond their critical baseline as if coherent."""
     return problem.errors.baseline_decorrelation is BaselineDecorrelation.NONE
+
+
+_MOST_PAIRS = 21
+"""Pairs that a table lists in full: those of seven images."""
+
+_PAIRS_LISTED, _LONGEST_LISTED = 20, 3
+"""Of more pairs so many are listed, or the rungs and so many of the longest others."""
+
+
+def listed_pairs(assessment: Assessment) -> tuple[int, ...]:
+    """Indices of the pairs that a table lists: all; of many the rungs, then the longest others."""
+    pairs = assessment.pairs
+    if len(pairs) <= _MOST_PAIRS:
+        return tuple(range(len(pairs)))
+    rungs = rung_numbers(assessment)
+    in_ladder = [index for index, pair in enumerate(pairs) if pair.images in rungs]
+    others = [index for index, pair in enumerate(pairs) if pair.images not in rungs]
+    in_ladder.sort(key=lambda index: rungs[pairs[index].images])
+    others.sort(key=lambda index: -float(np.abs(pairs[index].perpendicular_baseline).max()))
+    room = max(_PAIRS_LISTED - len(in_ladder), _LONGEST_LISTED)
+    return (*in_ladder, *others[:room])
+
+
+def rungs_beyond_critical(problem: Problem, assessment: Assessment) -> tuple[int, ...]:
+    """Rungs whose two images have no common band with each other in the ladder's segment."""
+    unwrapping = assessment.unwrapping
+    if unwrapping is None or decorrelation_neglected(problem):
+        return ()
+    beyond = {
+        pair.images
+        for pair in assessment.pairs
+        if pair.baseline_over_critical[unwrapping.worst_segment] >= 1.0
+    }
+    return tuple(n for images, n in rung_numbers(assessment).items() if images in beyond)
 
 
 def rung_numbers(assessment: Assessment) -> dict[tuple[int, int], int]:

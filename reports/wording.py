@@ -35,15 +35,15 @@ def fixed(value: float, decimals: int) -> str:
 def significant(value: float, digits: int = 3) -> str:
     """Number with a given count of significant digits, powers of ten only below 0.0001.
 
-    >>> significant(0.25290), significant(41.58), significant(1353.66), significant(-7.5e-11)
-    ('0.253', '41.6', '1354', '−7.50 × 10⁻¹¹')
+    >>> significant(0.25290), significant(9.999), significant(1353.66), significant(-7.5e-11)
+    ('0.253', '10.0', '1354', '−7.50 × 10⁻¹¹')
     """
     if not math.isfinite(value) or value == 0.0:
         return MISSING if value != 0.0 else "0"
-    exponent = math.floor(math.log10(abs(value)))
+    mantissa, power = f"{value:.{digits - 1}e}".split("e")  # rounded before it is measured
+    exponent = int(power)
     if exponent < -4:
-        mantissa, power = f"{value:.{digits - 1}e}".split("e")
-        return f"{mantissa} × 10{str(int(power)).translate(_SUPERSCRIPTS)}".replace("-", "−")
+        return f"{mantissa} × 10{str(exponent).translate(_SUPERSCRIPTS)}".replace("-", "−")
     return fixed(value, max(digits - 1 - exponent, 0))
 
 
@@ -90,9 +90,9 @@ def quantity(text: str, unit: str) -> str:
     return f"{text}\u00a0{unit}" if unit else text
 
 
-def meters(value: float) -> str:
-    """Length with three significant digits and its unit."""
-    return quantity(significant(value), "m") if math.isfinite(value) else MISSING
+def meters(value: float, digits: int = 3) -> str:
+    """Length with a given count of significant digits and its unit."""
+    return quantity(significant(value, digits), "m") if math.isfinite(value) else MISSING
 
 
 def to_decimals(decimals: int) -> Callable[[Sequence[float]], list[str]]:
@@ -101,15 +101,8 @@ def to_decimals(decimals: int) -> Callable[[Sequence[float]], list[str]]:
 
 
 def to_digits(digits: int) -> Callable[[Sequence[float]], list[str]]:
-    """Formatter of a column: the decimals that give its largest value so many digits."""
-
-    def show(values: Sequence[float]) -> list[str]:
-        sizes = [abs(float(v)) for v in values if math.isfinite(v) and v != 0.0]
-        exponent = math.floor(math.log10(max(sizes))) if sizes else 0
-        decimals = min(max(digits - 1 - exponent, 0), 6)
-        return [fixed(float(value), decimals) for value in values]
-
-    return show
+    """Formatter of a column whose values may differ by orders: so many digits of each."""
+    return lambda values: [significant(float(value), digits) for value in values]
 
 
 def to_probabilities(values: Sequence[float]) -> list[str]:
@@ -154,6 +147,15 @@ def ambiguity(value: float) -> str:
 def source_name(source: str) -> str:
     """Error source in words."""
     return _SOURCES.get(source, source.replace("_", " "))
+
+
+def formation_name(label: str) -> str:
+    """Formation by its label.
+
+    >>> formation_name("best"), formation_name("formation")
+    ('best formation', 'formation')
+    """
+    return label if label == "formation" else f"{label} formation"
 
 
 def joined(items: Sequence[str]) -> str:

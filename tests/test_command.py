@@ -143,7 +143,24 @@ def test_no_study_is_exit_2(capsys):
     assert "give a study" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("option", [["--seed", "-1"], ["--seed", "1.5"], ["--format", "docx"]])
+def test_a_file_without_an_ending_is_recognized(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "mine").write_text(QUICK, encoding="utf-8")
+    assert main(["mine", "--check"]) == 2
+    assert "write ./mine" in capsys.readouterr().err
+    assert main(["./mine", "--check"]) == 0
+
+
+@pytest.mark.parametrize(
+    "option",
+    [
+        ["--out", ""],
+        ["--seed", str(2**32)],
+        ["--seed", "-1"],
+        ["--seed", "1.5"],
+        ["--format", "docx"],
+    ],
+)
 def test_wrong_options_are_exit_2(option, study):
     with pytest.raises(SystemExit) as stop:
         main([study(), *option])

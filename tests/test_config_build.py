@@ -15,6 +15,7 @@ from configs import (
     STUDIES,
     EvaluateStudy,
     OptimizeStudy,
+    StudyError,
     effective_text,
     example_names,
     example_path,
@@ -538,3 +539,26 @@ def test_whatever_the_schema_allows_can_be_built_and_scored(
     evaluation = setup.problem.evaluate(setup.space.states(designs))
     assert not np.any(np.isnan(evaluation.objectives))
     assert np.all(min_separation(setup.initial_states, mean_motion=setup.orbit.mean_motion) >= 0)
+
+
+def _message(tmp_path, text):
+    path = tmp_path / "my.yaml"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(StudyError) as error:
+        load_study(path)
+    return str(error.value)
+
+
+def test_a_target_above_the_ground_is_refused(tmp_path):
+    text = example_path("li2009_space").read_text(encoding="utf-8").replace("[559.11,", "[300.11,")
+    message = _message(tmp_path, text)
+    assert (
+        "scene.table.slant_range_km[#1] = 300.11 is less than the altitude of the orbit, 514"
+        in (message)
+    )
+
+
+def test_a_compared_formation_may_not_be_called_like_the_result(tmp_path):
+    text = example_path("li2009_space").read_text(encoding="utf-8")
+    message = _message(tmp_path, text.replace("label: Published optimum", "label: best"))
+    assert "compare[#1].label = 'best' is what the result is called; choose another" in message

@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 import csv
 import dataclasses
+import html
 import io
 import json
 import math
@@ -25,6 +26,7 @@ from optimize import (
     Constraints,
     DesignSpace,
     EvaluateResult,
+    FailureLimit,
     GeneticSettings,
     OptimizeResult,
     Problem,
@@ -35,10 +37,14 @@ from optimize import (
 from reports import Provenance, StudyInfo, write_report
 from reports.document import Strong, Symbol
 from reports.figures.convergence import convergence_figure
+from reports.figures.orbits import half_extents
+from reports.figures.orbits_interactive import interactive_orbits
 from reports.html import html_bytes
 from reports.json_result import result_schema
 from reports.pages import page_of
 from reports.pdf import pdf_bytes
+from reports.reading import active, drawn_baselines, listed_pairs
+from reports.wording import to_digits
 
 ORBIT = Orbit.circular(altitude=514e3, inclination=1.7)
 RADIUS = 1350.0
@@ -108,6 +114,7 @@ def optimized(
         best=assess(problem, space.states(found.design), label="best", names=names),
         compare=(),
         search=found,
+        notices=(),
         warnings=(),
     )
 
@@ -174,7 +181,9 @@ def result() -> OptimizeResult:
     names = ("1", "2", "3")
     found = optimized(problem, names)
     wide = circle(problem, names, "wide", 3.0 * RADIUS)
-    return dataclasses.replace(found, compare=(wide,), warnings=("Check the prior DEM.",))
+    return dataclasses.replace(
+        found, compare=(wide,), notices=("Stopped early.",), warnings=("Check the prior DEM.",)
+    )
 
 
 def no_baseline() -> OptimizeResult:
@@ -216,6 +225,27 @@ def switching_transmitters() -> EvaluateResult:
     )
 
 
+def planar() -> EvaluateResult:
+    """A cartwheel without cross-track motion."""
+    problem, phase = make_problem(), 2.0 * math.pi * np.arange(3) / 3.0
+    states = np.zeros((3, 6))
+    states[:, 0], states[:, 1] = 300.0 * np.cos(phase), -600.0 * np.sin(phase)
+    states[:, 3:5] = ORBIT.mean_motion * np.stack([states[:, 1] / 2.0, -2.0 * states[:, 0]], -1)
+    given = assess(problem, states, label="formation", names=("1", "2", "3"))
+    return EvaluateResult(
+        problem=problem, critical_baseline=2707.0, formation=given, compare=(), warnings=()
+    )
+
+
+def crowd(satellites: int = 12) -> EvaluateResult:
+    problem = make_problem(satellites=satellites, prior_height_std=4.0)
+    names = tuple(f"S{number}" for number in range(1, satellites + 1))
+    given = circle(problem, names, "formation", RADIUS)
+    return EvaluateResult(
+        problem=problem, critical_baseline=2707.0, formation=given, compare=(), warnings=()
+    )
+
+
 ODD_RESULTS = {
     "no feasible formation": lambda: optimized(make_problem(min_separation=1e5)),
     "no baseline": no_baseline,
@@ -225,6 +255,8 @@ ODD_RESULTS = {
     "no limits": lambda: optimized(make_problem(max_radius=None, min_separation=None)),
     "given formation": evaluated,
     "several transmitters": switching_transmitters,
+    "planar": planar,
+    "crowd": crowd,
 }
 
 
@@ -298,7 +330,7 @@ def test_json_keeps_its_contract(result: OptimizeResult, tmp_path: Path) -> None
     assert best["pairs"][1]["images"] == ["1→1", "1→3"]
     assert best["pairs"][1]["satellites"] == ["1", "3"]
     assert document["certificate"] is None
-    assert document["warnings"] == ["Check the prior DEM."]
+    assert document["warnings"] == ["Stopped early.", "Check the prior DEM."]
 
 
 @pytest.mark.parametrize(
@@ -361,6 +393,110 @@ def test_infeasible_result_says_what_is_broken_and_the_remedy() -> None:
 
 def test_interrupted_search_says_so() -> None:
     assert "The search was interrupted" in Page(rendered_html(interrupted(), study_info())).text
+
+
+def test_page_says_once_what_the_verdict_says() -> None:
+    found = dataclasses.replace(
+        ODD_RESULTS["no feasible formation"](), notices=("Nothing feasible: a notice.",)
+    )
+    text = Page(rendered_html(found, study_info())).text
+    assert "a notice" not in text
+    assert text.count("Broken: separation of each pair at all times.") == 1
+
+
+def test_refinement_of_a_search_that_found_nothing_itself_is_worded() -> None:
+    found = optimized(make_problem())
+    late = dataclasses.replace(found.search, genetic_objective=math.inf)
+    text = Page(rendered_html(dataclasses.replace(found, search=late), study_info())).text
+    assert "The genetic algorithm alone found none that keeps every limit" in text
+
+
+def test_every_value_of_a_column_keeps_its_digits() -> None:
+    assert to_digits(4)([1653.66, 1.23449, 0.999999, math.nan]) == ["1654", "1.234", "1.000", "—"]
+
+
+@pytest.mark.parametrize(("value", "near"), [(0.99009, True), (0.9905, False), (0.98, False)])
+def test_probability_is_active_within_one_percent_of_the_allowed_failure(
+    result: OptimizeResult, value: float, near: bool
+) -> None:
+    report = next(one for one in result.best.constraints if isinstance(one.limit, FailureLimit))
+    assert report.limit.value == 0.99
+    given = report._replace(value=value, satisfied=value >= 0.99)
+    assert active(given) is near
+
+
+def test_setting_says_what_the_scene_is() -> None:
+    given = planar()
+    text = Page(rendered_html(given, study_info("evaluate"))).text
+    assert "2707\u00a0m, the smallest over the scene" in text
+    assert "0 … 9 s, a span of 9 s" in text
+    assert "flat Earth" not in text
+    assert "terrain slope" not in text
+    scene = given.problem.scene
+    flat = dataclasses.replace(scene, incidence=scene.look_angle, slope=np.radians(5.0))
+    problem = dataclasses.replace(given.problem, scene=flat)
+    text = Page(
+        rendered_html(dataclasses.replace(given, problem=problem), study_info("evaluate"))
+    ).text
+    assert "23.00°, flat Earth (incidence equals look)" in text
+    assert "terrain slope, towards the radar 5.00°" in re.sub(r"\s+", " ", text)
+
+
+def test_rungs_without_a_common_band_are_explained() -> None:
+    given = evaluated()
+    ladder = given.formation.unwrapping
+    assert ladder is not None
+    sentence = "Rung 2 joins two images that have no common band with each other"
+    assert sentence not in Page(rendered_html(given, study_info("evaluate"))).text
+    pairs = tuple(
+        pair._replace(baseline_over_critical=np.full(4, 1.2))
+        if pair.images == ladder.rungs[1].images
+        else pair
+        for pair in given.formation.pairs
+    )
+    beyond = dataclasses.replace(given.formation, pairs=pairs)
+    text = Page(
+        rendered_html(dataclasses.replace(given, formation=beyond), study_info("evaluate"))
+    ).text
+    assert sentence in text
+
+
+def test_of_many_pairs_the_rungs_and_the_longest_are_listed() -> None:
+    given = crowd()
+    listed = listed_pairs(given.formation)
+    pairs = given.formation.pairs
+    rungs = [rung.images for rung in given.formation.unwrapping.rungs]
+    assert [pairs[index].images for index in listed[: len(rungs)]] == rungs
+    others = [index for index in range(len(pairs)) if pairs[index].images not in rungs]
+    longest = max(others, key=lambda i: np.abs(pairs[i].perpendicular_baseline).max())
+    assert listed[len(rungs)] == longest
+    assert len(listed) == len(set(listed)) == 20
+    text = Page(rendered_html(given, study_info("evaluate"))).text
+    assert "The rungs and the longest of 66; result.json has the 46 left out." in text
+    assert "gray lines the baselines of the unwrapping ladder" in text
+    assert len(drawn_baselines(given.problem, given.formation).ends) == len(rungs)
+    few = evaluated()
+    assert listed_pairs(few.formation) == (0, 1, 2)
+    assert len(drawn_baselines(few.problem, few.formation).ends) == 3
+
+
+def test_names_are_literal_in_the_figure_that_turns() -> None:
+    given = evaluated().formation
+    named = dataclasses.replace(given, names=("<b>x</b>", "a & b %{x}", '"3"'))
+    figure = interactive_orbits([named], [()], np.array([-1.0, 0.0, 0.0]))
+    lines = [trace["name"] for trace in figure["data"] if trace["mode"] == "lines"]
+    # Legends and hovers: plotly takes them for HTML and templates, and knows numeric entities.
+    assert lines == ["&#60;b&#62;x&#60;/b&#62;", "a &#38; b &#37;{x}", '"3"']
+    assert [html.unescape(line) for line in lines] == list(named.names)
+    # Marks in space: no entities there, and no tag but a few, exactly spelled.
+    marks = [trace["text"][0] for trace in figure["data"] if trace["mode"] == "markers+text"]
+    assert [mark.replace("\N{WORD JOINER}", "") for mark in marks] == list(named.names)
+    assert not any(re.search(r"</?(b|i|br|sub|sup)>", mark) for mark in marks)
+
+
+def test_panels_of_a_planar_formation_have_room_for_their_titles() -> None:
+    half = half_extents(planar().formation)
+    assert half.min() >= 0.35 * half.max()
 
 
 def test_unmeasured_height_gives_its_reason() -> None:

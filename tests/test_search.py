@@ -377,6 +377,27 @@ def test_only_a_formation_without_radial_normal_separation_is_called_unsafe(real
     assert not any("passively unsafe" in note for note in notes)
 
 
+def test_findings_name_what_the_model_leaves_out(realistic):
+    problem, space = realistic(min_separation=None)
+    far = np.zeros((3, 6))
+    far[:, 1] = [0.0, 3000.0, 3005.0]
+    far[:, 0] = [0.0, 300.0, 310.0]
+    far[:, 4] = -2 * space.mean_motion * far[:, 0]
+    notes = " ".join(findings(problem, assess(problem, far, label="a", names=space.names)))
+    # 3005 m along track: B V/(λ r) = 3005·7605/(0.031·562.5e3) = 1310 Hz.
+    assert "3005 m apart along track" in notes
+    assert "1310 Hz" in notes or "1311 Hz" in notes
+    assert "drawn anew for every pair" not in notes
+    apart = dataclasses.replace(problem, errors=ErrorBudget.li2009())
+    notes = " ".join(findings(apart, assess(apart, far, label="a", names=space.names)))
+    assert "The azimuth error is drawn anew for every pair" in notes
+    assert "counts N images as" in notes
+    together = np.zeros((3, 6))
+    together[:, 1] = [0.0, 3.0, 500.0]
+    notes = " ".join(findings(problem, assess(problem, together, label="a", names=space.names)))
+    assert "within 3 m of each other" in notes
+
+
 # -- design space and constraints ----------------------------------------------------------------
 
 

@@ -18,7 +18,7 @@ def run(study: EvaluateStudy, options: Options) -> Outcome:
     options : of the command line; nothing here is random.
     """
     setup = build_evaluate(study)
-    formation = assess(setup.problem, setup.states, label=study.name, names=setup.names)
+    formation = assess(setup.problem, setup.states, label="formation", names=setup.names)
     compare = tuple(
         assess(setup.problem, states, label=label, names=names)
         for label, names, states in setup.compare

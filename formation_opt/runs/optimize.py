@@ -34,13 +34,12 @@ def run(study: OptimizeStudy, options: Options) -> Outcome:
     names = setup.space.names
     initial = assess(setup.problem, setup.initial_states, label="initial", names=names)
     best = assess(setup.problem, setup.space.states(found.design), label="best", names=names)
-    warnings = list(findings(setup.problem, best))
+    notices = []
     blocked = None if best.feasible else _blocking(best)
     if blocked is not None:
-        warnings.insert(0, f"No feasible formation was found. {blocked}")
+        notices.append(f"No feasible formation was found: {blocked}")
     if found.interrupted:
-        warnings.insert(
-            0,
+        notices.append(
             f"The search was interrupted after {found.evaluations} formations: this is the best so "
             "far, not the best there is.",
         )
@@ -54,7 +53,8 @@ def run(study: OptimizeStudy, options: Options) -> Outcome:
             for label, members, states in setup.compare
         ),
         search=found,
-        warnings=tuple(warnings),
+        notices=tuple(notices),
+        warnings=findings(setup.problem, best),
     )
     return Outcome(
         result=result,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -29,6 +30,10 @@ _WIDEST = 1.95
 """Width of the panel of the longest axis [inch]."""
 
 
+_LEAST = np.array([0.4, 0.72, 0.72])
+"""Least extents along R, T and N in parts of the largest: what a panel's title and arrows need."""
+
+
 class _View(NamedTuple):
     """A projection: its axes, and the panel [inch] that it fills."""
 
@@ -40,12 +45,15 @@ class _View(NamedTuple):
     height: float
 
 
-def orbits_figure(assessment: Assessment, *, line_of_sight: Array) -> bytes:
+def orbits_figure(
+    assessment: Assessment, *, baselines: Sequence[tuple[int, int]], line_of_sight: Array
+) -> bytes:
     """Relative orbits of one formation.
 
     Parameters
     ----------
     assessment : the formation.
+    baselines : those that are drawn, two satellites each.
     line_of_sight : (3,) — direction of view in the middle of the scene, RTN.
     """
     half = half_extents(assessment)
@@ -69,11 +77,11 @@ def orbits_figure(assessment: Assessment, *, line_of_sight: Array) -> bytes:
                     view.height / height,
                 )
             )
-            _paint_view(figure, axes, view, assessment, half, line_of_sight)
+            _paint_view(figure, axes, view, assessment, baselines, half, line_of_sight)
             title = f"({letter}) {_TITLES[view.horizontal, view.vertical]}"
             axes.set_title(title, loc="left", pad=4)
         space = (right - 0.2, 0.0, WIDTH - right + 0.2, top - 0.35)
-        _paint_space(figure, space, half, assessment)
+        _paint_space(figure, space, half, assessment, baselines)
         trans = figure.dpi_scale_trans
         figure.text(right, _BOTTOM + width_n + 0.055, "(d) in space", transform=trans)
         _paint_key(figure, assessment, (right + width_n + 0.12, top + height_r))
@@ -124,7 +132,7 @@ def half_extents(assessment: Assessment) -> Array:
     largest = float(reach.max())
     if largest == 0.0:
         return np.ones(3)
-    return np.asarray(1.13 * np.maximum(reach, 0.4 * largest), dtype=np.float64)
+    return np.asarray(1.13 * np.maximum(reach, _LEAST * largest), dtype=np.float64)
 
 
 def open_side(assessment: Assessment) -> float:
@@ -150,12 +158,13 @@ def _paint_view(
     axes: Axes,
     view: _View,
     assessment: Assessment,
+    baselines: Sequence[tuple[int, int]],
     half: Array,
     line_of_sight: Array,
 ) -> None:
     plane = [view.horizontal, view.vertical]
     start = assessment.states[:, plane]
-    for first, second in assessment.separation_pairs:
+    for first, second in baselines:
         axes.plot(*start[[first, second]].T, color="#bbbbbb", linewidth=0.7, zorder=1)
     for index, style in enumerate(orbit_dashes(assessment)):
         track = assessment.orbits[:, index, plane].T
@@ -174,7 +183,7 @@ def _paint_view(
     axes.set_xlabel(_AXIS_NAMES[view.horizontal], labelpad=2)
     axes.set_ylabel(_AXIS_NAMES[view.vertical], labelpad=1)
     for axis, length in ((axes.xaxis, view.width), (axes.yaxis, view.height)):
-        axis.set_major_locator(MaxNLocator(max(3, int(length / 0.45)), steps=[1, 2, 5, 10]))
+        axis.set_major_locator(MaxNLocator(max(3, int(length / 0.45)), steps=[1, 2, 4, 5, 10]))
     _paint_directions(figure, view, line_of_sight)
 
 
@@ -227,6 +236,7 @@ def _paint_space(
     cell: tuple[float, float, float, float],
     half: Array,
     assessment: Assessment,
+    baselines: Sequence[tuple[int, int]],
 ) -> None:
     left, bottom, width, tall = cell
     height = figure.get_figheight()
@@ -236,7 +246,7 @@ def _paint_space(
     axes.patch.set_visible(False)
     order = [_T, _N, _R]
     start = assessment.states[:, order]
-    for first, second in assessment.separation_pairs:
+    for first, second in baselines:
         axes.plot(*start[[first, second]].T, color="#bbbbbb", linewidth=0.7)
     for index, style in enumerate(orbit_dashes(assessment)):
         axes.plot(
@@ -261,7 +271,7 @@ def _paint_space(
         axis.set_rotate_label(letter != "z")
         axis.set_label_text("TNR"["xyz".index(letter)] + " [m]", rotation=90)
         axis.labelpad = -6
-        axis.set_major_locator(MaxNLocator(3, steps=[1, 2, 5, 10]))
+        axis.set_major_locator(MaxNLocator(3, steps=[1, 2, 4, 5, 10]))
         axis.set_tick_params(pad=-3, labelsize=7)
         axis.pane.set_facecolor("white")
         axis.pane.set_edgecolor("#cccccc")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import html
 from collections.abc import Sequence
 from typing import Any
 
@@ -12,24 +11,33 @@ from numpy.typing import NDArray
 from optimize import Assessment
 
 from .orbits import open_side
-from .style import color
+from .style import color, mark_index
 
 Array = NDArray[np.float64]
 
-_SYMBOLS = ("circle", "square", "diamond", "cross", "x", "circle-open", "square-open")
+# Plotly's for marks in space; the first five are those of the other figures.
+_SYMBOLS = (
+    *("circle", "square", "diamond", "cross", "x"),
+    *("circle-open", "square-open", "diamond-open"),
+)
 _AXES = (("x", "along-track T [m]", 1), ("y", "orbit normal N [m]", 2), ("z", "radial R [m]", 0))
 
 
-def interactive_orbits(assessments: Sequence[Assessment], line_of_sight: Array) -> dict[str, Any]:
+def interactive_orbits(
+    assessments: Sequence[Assessment],
+    baselines: Sequence[Sequence[tuple[int, int]]],
+    line_of_sight: Array,
+) -> dict[str, Any]:
     """Orbits, satellites, baselines, flight and look direction; one formation at a time.
 
     Parameters
     ----------
     assessments : the formations to choose from, the first shown at the start.
+    baselines : those that are drawn in each formation, two satellites each.
     line_of_sight : (3,) — direction of view in the middle of the scene, RTN.
     """
     reach = max(float(np.abs(one.orbits).max()) for one in assessments) or 1.0
-    groups = [_traces(one) for one in assessments]
+    groups = [_traces(one, ends) for one, ends in zip(assessments, baselines, strict=True)]
     arrows = [
         _arrow("flight direction", np.array([0.0, 1.0, 0.0]), reach, "#444444"),
         _arrow("look direction", line_of_sight, reach, "#b3261e"),
@@ -39,7 +47,7 @@ def interactive_orbits(assessments: Sequence[Assessment], line_of_sight: Array) 
             trace["visible"] = index == 0
     buttons = [
         {
-            "label": html.escape(one.label),
+            "label": _in_markup(one.label),
             "method": "restyle",
             "args": [
                 {
@@ -85,10 +93,10 @@ def _layout(reach: float, side: float, buttons: list[dict[str, Any]]) -> dict[st
     }
 
 
-def _traces(assessment: Assessment) -> list[dict[str, Any]]:
+def _traces(assessment: Assessment, baselines: Sequence[tuple[int, int]]) -> list[dict[str, Any]]:
     traces = []
     for index, name in enumerate(assessment.names):
-        shade, shown = color(index), html.escape(name)  # plotly takes text for HTML
+        shade, shown = color(index), _in_markup(name)
         traces.append(
             _line(assessment.orbits[:, index], shade, 4)
             | {"name": shown, "legendgroup": str(index), "hovertemplate": _hover(shown)}
@@ -97,20 +105,20 @@ def _traces(assessment: Assessment) -> list[dict[str, Any]]:
             _points(assessment.states[index : index + 1, :3])
             | {
                 "mode": "markers+text",
-                "marker": {"color": shade, "size": 7, "symbol": _SYMBOLS[index % len(_SYMBOLS)]},
-                "text": [shown],
+                "marker": {"color": shade, "size": 7, "symbol": _SYMBOLS[mark_index(index)]},
+                "text": [_in_space(name)],
                 "textposition": "top center",
                 "showlegend": False,
                 "legendgroup": str(index),
                 "hovertemplate": _hover(f"{shown} at t = 0"),
             }
         )
-    ends = assessment.states[assessment.separation_pairs, :3]
-    gaps = np.full((len(ends), 1, 3), np.nan)
-    baselines = np.concatenate([ends, gaps], axis=1).reshape(-1, 3)
-    if len(ends):
+    if baselines:
+        ends = assessment.states[np.array(baselines), :3]
+        gaps = np.full((len(ends), 1, 3), np.nan)
+        lines = np.concatenate([ends, gaps], axis=1).reshape(-1, 3)
         traces.append(
-            _line(baselines, "#aaaaaa", 2) | {"name": "baselines at t = 0", "hoverinfo": "skip"}
+            _line(lines, "#aaaaaa", 2) | {"name": "baselines at t = 0", "hoverinfo": "skip"}
         )
     return traces
 
@@ -138,6 +146,21 @@ def _points(points: Array) -> dict[str, Any]:
         for letter, _, index in _AXES
     }
     return {"type": "scatter3d"} | axes
+
+
+def _in_markup(name: str) -> str:
+    """Name for legends, buttons and hovers, whose text plotly takes for HTML and a template."""
+    for character in "&<>%":  # & first: it begins what the others become
+        name = name.replace(character, f"&#{ord(character)};")
+    return name
+
+
+def _in_space(name: str) -> str:
+    """Name for a mark in space: plotly knows a few tags there but no entities, so break the tags.
+
+    A word joiner is not drawn; behind it ``<b>`` is no tag.
+    """
+    return name.replace("<", "<\N{WORD JOINER}")
 
 
 def _hover(name: str) -> str:

@@ -37,7 +37,8 @@ _OKABE_ITO = (
     "#000000",
     "#7A7A7A",
 )
-_MARKERS = "o^Dv<P>s"
+_MARKERS = "osDPXv<^"
+"""The first five as in the interactive figures, whose marks in space are few."""
 
 _RC: Any = {
     "font.family": ["STIXGeneral", "DejaVu Sans"],
@@ -78,7 +79,12 @@ def color(index: int) -> str:
 
 def marker(index: int) -> str:
     """Marker of a satellite or series, distinct also in gray."""
-    return _MARKERS[index % len(_MARKERS)]
+    return _MARKERS[mark_index(index)]
+
+
+def mark_index(index: int) -> int:
+    """Which of eight marks a satellite has: when the colors start over, each gets another one."""
+    return (index + index // len(_OKABE_ITO)) % 8
 
 
 def series_marker(index: int, points: int) -> str:

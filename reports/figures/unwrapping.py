@@ -103,6 +103,9 @@ def _paint_ladder(axes: Axes, ladder: Unwrapping, pairs: Sequence[str]) -> None:
             textcoords="offset points",
             va="center_baseline",
             fontsize=8.0,
+            # The dashed line may pass where a label is.
+            bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.8},
+            zorder=4,
         )
     largest = max(rung.phase_std for rung in ladder.rungs)
     axes.axvline(np.pi, color=INK, linewidth=0.8, linestyle=_DASHED)

@@ -8,20 +8,21 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from insar import ErrorSource
+from insar import ErrorSource, Scene
 from optimize import Problem
 
 from ..document import Block, CodeListing, Column, Section, Table
 from ..study import Provenance, StudyInfo
-from ..wording import counted, fixed, plain, quantity, source_name
+from ..wording import counted, fixed, meters, plain, quantity, source_name
 
 
 def closing_sections(
-    problem: Problem, study: StudyInfo, provenance: Provenance
+    problem: Problem, critical_baseline: float, study: StudyInfo, provenance: Provenance
 ) -> tuple[Section, ...]:
     """The study and its provenance."""
+    setting = _setting(problem, critical_baseline, study)
     blocks: list[Block] = [
-        _facts(_setting(problem, study), "The setting: orbit, radar, scene and errors."),
+        _facts(setting, "The setting: orbit, radar, scene and errors."),
         CodeListing(study.source_text, "The study file as run."),
     ]
     if study.effective is not None:
@@ -40,8 +41,10 @@ def _facts(rows: list[tuple[str, str]], caption: str) -> Table:
     return Table(frame, (Column("what", "Item"), Column("value", "Value")), caption)
 
 
-def _setting(problem: Problem, study: StudyInfo) -> list[tuple[str, str]]:
+def _setting(problem: Problem, critical_baseline: float, study: StudyInfo) -> list[tuple[str, str]]:
     scene, radar, errors = problem.scene, problem.radar, problem.errors
+    prior = problem.constraints.prior_height_std
+    sloping = bool(np.any(scene.slope != 0.0))
     transmitters = len({transmitter for transmitter, _ in radar.images})
     return [
         ("orbit altitude", f"{fixed(study.orbit_altitude / 1e3, 1)} km"),
@@ -53,10 +56,17 @@ def _setting(problem: Problem, study: StudyInfo) -> list[tuple[str, str]]:
         ("satellites", str(radar.satellite_count)),
         ("images", f"{len(radar.images)}, of {counted(transmitters, 'transmitter')}"),
         ("scene", counted(len(scene), "segment")),
+        ("times of the segments", _times(scene.times)),
         ("look angle", _degrees(scene.look_angle)),
-        ("incidence", _degrees(scene.incidence)),
+        ("incidence", _incidence(scene)),
         ("azimuth of the line of sight", _degrees(scene.azimuth)),
         ("slant range", _span(scene.slant_range / 1e3, "km", 1)),
+        *([("terrain slope, towards the radar", _degrees(scene.slope))] if sloping else []),
+        ("critical baseline", f"{meters(critical_baseline, 4)}, the smallest over the scene"),
+        (
+            "prior height, standard deviation",
+            "none" if prior is None else quantity(plain(prior), "m"),
+        ),
         *(
             (f"error of {source_name(name)}", _error(source, unit))
             for name, source, unit in (
@@ -70,6 +80,20 @@ def _setting(problem: Problem, study: StudyInfo) -> list[tuple[str, str]]:
         ("baseline decorrelation", str(errors.baseline_decorrelation)),
         ("held constant while the height changes", str(errors.held_constant)),
     ]
+
+
+def _times(times: NDArray[np.float64]) -> str:
+    low, high = float(times.min()), float(times.max())
+    if low == high:
+        return f"{plain(low)} s"
+    return f"{plain(low)} … {plain(high)} s, a span of {plain(high - low)} s"
+
+
+def _incidence(scene: Scene) -> str:
+    text = _degrees(scene.incidence)
+    if np.array_equal(scene.incidence, scene.look_angle):
+        text += ", flat Earth (incidence equals look)"
+    return text
 
 
 def _error(source: ErrorSource, unit: str) -> str:

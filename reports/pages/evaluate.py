@@ -34,13 +34,13 @@ def document(result: EvaluateResult, study: StudyInfo, provenance: Provenance) -
         ),
         sections.formation_section(problem, [formation]),
         sections.height_error_section(problem, [formation, *others]),
-        pairs_section(problem, [result.formation]),
+        pairs_section(problem, result.critical_baseline, [result.formation]),
         unwrapping_section(problem, [formation, *others], ladder=result.formation),
         sections.attribution_section([formation]),
         sections.constraints_section([result.formation]),
         sections.comparison_section(result.formation, result.compare),
         methods_section(problem, search=None),
-        *closing_sections(problem, study, provenance),
+        *closing_sections(problem, result.critical_baseline, study, provenance),
     )
 
 

@@ -9,9 +9,26 @@ from optimize import Assessment, Problem
 
 from ..document import Block, Column, Figure, Paragraph, Section, Status, Symbol, Table
 from ..figures.unwrapping import unwrapping_figure
-from ..reading import Shown, decorrelation_neglected, pair_name, sole_transmitter
+from ..reading import (
+    Shown,
+    decorrelation_neglected,
+    listed_pairs,
+    pair_name,
+    rungs_beyond_critical,
+    sole_transmitter,
+)
 from ..tables import pairs_frame, rungs_frame
-from ..wording import ambiguity, fixed, plain, to_decimals, to_probabilities, to_span
+from ..wording import (
+    ambiguity,
+    fixed,
+    formation_name,
+    joined,
+    meters,
+    plain,
+    to_decimals,
+    to_probabilities,
+    to_span,
+)
 
 OVER_CRITICAL = ("|", Symbol("B_⊥"), "|/", Symbol("B_crit"))
 """Heading of a perpendicular baseline in parts of the critical one."""
@@ -27,12 +44,18 @@ _BEYOND_COUNTED = (
     "but the study neglects that."
 )
 
-_MOST_PAIRS = 66
-"""Pairs listed in a report, those of twelve images; the JSON file has them all."""
 
+def pairs_section(
+    problem: Problem, critical_baseline: float, assessments: Sequence[Assessment]
+) -> Section:
+    """Baselines, coherence and looks of the pairs.
 
-def pairs_section(problem: Problem, assessments: Sequence[Assessment]) -> Section:
-    """Baselines, coherence and looks of every pair."""
+    Parameters
+    ----------
+    problem : scene, radar and errors.
+    critical_baseline : the smallest over the scene [m].
+    assessments : the formations, a table each.
+    """
     transmitter = sole_transmitter(problem)
     if transmitter is None:
         text = "An image is named transmitter→receiver."
@@ -52,17 +75,25 @@ def pairs_section(problem: Problem, assessments: Sequence[Assessment]) -> Sectio
             " The study neglects baseline decorrelation: coherence and looks are those at zero "
             "baseline."
         )
-    blocks: list[Block] = [Paragraph(text)]
+    critical = (
+        " The critical baseline ",
+        Symbol("B_crit"),
+        f" is {meters(critical_baseline, 4)}, the smallest over the scene.",
+    )
+    blocks: list[Block] = [Paragraph((text, *critical))]
     blocks += [_pairs_table(problem, one) for one in assessments]
     return Section("pairs", "Interferometric pairs", tuple(blocks))
 
 
 def _pairs_table(problem: Problem, assessment: Assessment) -> Table:
     frame = pairs_frame(problem, assessment)
-    caption = f"Pairs of the {assessment.label} formation."
-    if len(frame) > _MOST_PAIRS:
-        caption += f" The first {_MOST_PAIRS} of {len(frame)}; result.json has all."
-        frame = frame[:_MOST_PAIRS]
+    caption = f"Pairs of the {formation_name(assessment.label)}."
+    listed = listed_pairs(assessment)
+    if len(listed) < len(frame):
+        chosen = "The longest" if assessment.unwrapping is None else "The rungs and the longest"
+        left_out = len(frame) - len(listed)
+        caption += f" {chosen} of {len(frame)}; result.json has the {left_out} left out."
+        frame = frame.iloc[list(listed)]
     columns = [
         Column("pair", "Pair"),
         Column("perpendicular_baseline_m", (Symbol("B_⊥"),), "m", to_span(_tenths)),
@@ -96,6 +127,15 @@ def unwrapping_section(
         f"prior height, known to {plain(ladder.unwrapping.prior_height_std)}\u00a0m, and the rungs "
         "below it. Noise and systematic errors both count."
     )
+    beyond = [str(number) for number in rungs_beyond_critical(problem, ladder)]
+    if beyond:
+        text += (
+            f" Rung {beyond[0]} joins" if len(beyond) == 1 else f" Rungs {joined(beyond)} each join"
+        )
+        text += (
+            " two images that have no common band with each other: the phase between them is known "
+            "through third images."
+        )
     return Section(
         "unwrapping",
         "Phase unwrapping",
@@ -110,7 +150,8 @@ def unwrapping_section(
                     Column("phase_std_rad", "Phase deviation", "rad", to_decimals(3)),
                     Column("probability", "Probability", "", to_probabilities),
                 ),
-                f"Unwrapping ladder of the {ladder.label} formation in segment {worst}, its worst.",
+                f"Unwrapping ladder of the {formation_name(ladder.label)} in segment {worst}, its "
+                "worst.",
             ),
             Figure(
                 unwrapping_figure(

@@ -121,7 +121,9 @@ def methods_section(problem: Problem, *, search: SearchResult | None) -> Section
                 f"The search is a genetic algorithm (DEAP {cite(_FORTIN)}) that ranks by "
                 f"feasibility first {cite(_DEB)}; its best, mutually distant designs are then "
                 "refined by sequential quadratic programming (SLSQP). This finds good formations, "
-                "but proves none to be the best."
+                "but proves none to be the best. Only differences of the satellites' positions "
+                "enter: other formations with the same projected baselines are as good, so another "
+                "seed may return other orbits with the same error."
             )
         )
     return Section("methods", "How it was computed", (*blocks, References(tuple(cite.works))))

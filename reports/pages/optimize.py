@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import pandas as pd
@@ -40,13 +41,13 @@ def document(result: OptimizeResult, study: StudyInfo, provenance: Provenance) -
         sections.formation_section(problem, [best, initial]),
         sections.height_error_section(problem, [initial, best, *others]),
         _convergence_section(result),
-        pairs_section(problem, [result.best, result.initial]),
+        pairs_section(problem, result.critical_baseline, [result.best, result.initial]),
         unwrapping_section(problem, [initial, best, *others], ladder=result.best),
         sections.attribution_section([initial, best]),
         sections.constraints_section([result.best, result.initial]),
         sections.comparison_section(result.best, result.compare),
         methods_section(problem, search=result.search),
-        *closing_sections(problem, study, provenance),
+        *closing_sections(problem, result.critical_baseline, study, provenance),
     )
 
 
@@ -75,9 +76,14 @@ def _convergence_section(result: OptimizeResult) -> Section:
     if search.refined:
         before, after = search.genetic_objective, search.objective
         if search.feasible:
+            alone = (
+                f"reached {meters(before)}"
+                if math.isfinite(before)
+                else "found none that keeps every limit"
+            )
             text += (
-                f" The genetic algorithm alone reached {meters(before)}; local refinement of its "
-                f"best, mutually distant designs brought {meters(after)}."
+                f" The genetic algorithm alone {alone}; local refinement of its best, mutually "
+                f"distant designs brought {meters(after)}."
             )
         else:
             text += " Neither the genetic algorithm nor the refinement met every limit."

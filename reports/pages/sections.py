@@ -24,8 +24,12 @@ from ..figures.height_error import height_error_figure
 from ..figures.orbits import orbits_figure
 from ..figures.orbits_interactive import interactive_orbits
 from ..reading import (
+    ACTIVE_FAILURE_MARGIN,
+    ACTIVE_MARGIN,
+    Baselines,
     Shown,
     broken,
+    drawn_baselines,
     measured,
     unmeasured_reason,
 )
@@ -39,6 +43,7 @@ from ..tables import (
 )
 from ..wording import (
     counted,
+    formation_name,
     percent,
     significant,
     to_decimals,
@@ -80,22 +85,31 @@ def formation_section(problem: Problem, formations: Sequence[Shown]) -> Section:
     ]
     blocks += [_formation_table(shown.assessment) for shown in formations]
     middle = problem.scene.line_of_sight[len(problem.scene) // 2]
-    for index, shown in enumerate(formations):
-        label = shown.assessment.label
+    baselines = [drawn_baselines(problem, shown.assessment) for shown in formations]
+    assessments = [shown.assessment for shown in formations]
+    for index, (assessment, drawn) in enumerate(zip(assessments, baselines, strict=True)):
+        name = formation_name(assessment.label)
         blocks.append(
             Figure(
-                orbits_figure(shown.assessment, line_of_sight=middle),
-                f"Relative orbits of the {label} formation over one revolution, all to one scale. "
-                f"Marks are the satellites at {_EPOCH}, gray lines the baselines between them; "
-                "arrows give the flight direction and the line of sight in the middle of the "
-                "scene, ⊙ one that points at the viewer. Of orbits that coincide one is dashed.",
-                f"Three projections and a view in space of the {label} formation's orbits.",
-                interactive=interactive_orbits([s.assessment for s in formations], middle)
+                orbits_figure(assessment, baselines=drawn.ends, line_of_sight=middle),
+                f"Relative orbits of the {name} over one revolution, all to one scale. Marks are "
+                f"the satellites at {_EPOCH}{_lines(drawn)}; arrows give the flight direction and "
+                "the line of sight in the middle of the scene, ⊙ one that points at the viewer. "
+                "Of orbits that coincide one is dashed.",
+                f"Three projections and a view in space of the {name}'s orbits.",
+                interactive=interactive_orbits(assessments, [b.ends for b in baselines], middle)
                 if index == 0
                 else None,
             )
         )
     return Section("formation", "The formation", tuple(blocks))
+
+
+def _lines(baselines: Baselines) -> str:
+    """The gray lines of an orbit figure in its caption."""
+    if not baselines.words:
+        return "; the baselines between so many are not drawn"
+    return f", gray lines {baselines.words}"
 
 
 def _formation_table(assessment: Assessment) -> Table:
@@ -111,7 +125,8 @@ def _formation_table(assessment: Assessment) -> Table:
             Column("vt_m_s", "Ṫ", "m/s", rates),
             Column("vn_m_s", "Ṅ", "m/s", rates),
         ),
-        f"States of the {assessment.label} formation at {_EPOCH} (every digit: formation.csv).",
+        f"States of the {formation_name(assessment.label)} at {_EPOCH} (every digit: "
+        "formation.csv).",
     )
 
 
@@ -163,7 +178,7 @@ def _unwrapping_column(frame: pd.DataFrame) -> tuple[Column, ...]:
 
 def _unmeasured(assessments: Sequence[Assessment]) -> list[Block]:
     return [
-        Paragraph(f"The {one.label} formation measures no height: {unmeasured_reason(one)}.")
+        Paragraph(f"The {formation_name(one.label)} measures no height: {unmeasured_reason(one)}.")
         for one in assessments
         if not measured(one)
     ]
@@ -214,8 +229,12 @@ def constraints_section(assessments: Sequence[Assessment]) -> Section:
     tables = tuple(_constraints_table(one) for one in assessments if one.constraints)
     if not tables:
         return Section("limits", "Limits", (Paragraph("The study sets no limits."),))
-    text = "The value is that of the worst satellite, pair or segment. A limit that is kept with "
-    text += "less than 0.1 % to spare is active: it holds the design back."
+    text = (
+        "The value is that of the worst satellite, pair or segment. A limit that is kept with less "
+        f"than {100.0 * ACTIVE_MARGIN:g} % to spare, or a probability with less than "
+        f"{100.0 * ACTIVE_FAILURE_MARGIN:g} % of the failure that its limit allows, is active: it "
+        "holds the design back."
+    )
     return Section("limits", "Limits", (Paragraph(text), *tables))
 
 
@@ -233,7 +252,7 @@ def _constraints_table(assessment: Assessment) -> Table:
             Column("margin", "Margin", "", list),
             Column("state", "State"),
         ),
-        f"Limits and the {assessment.label} formation.",
+        f"Limits and the {formation_name(assessment.label)}.",
         tuple(marks[state] for state in frame["state"]),
     )
 

@@ -18,6 +18,7 @@ from ..reading import (
 )
 from ..wording import (
     counted,
+    formation_name,
     joined,
     meters,
     percent,
@@ -77,7 +78,7 @@ def evaluate_verdict(result: EvaluateResult) -> tuple[Block, ...]:
 def _achieved(formation: Assessment) -> tuple[str, ...]:
     error = formation.height_error
     return (
-        f"The {formation.label} formation measures height with an error of ",
+        f"The {formation_name(formation.label)} measures height with an error of ",
         Strong(meters(float(error.region))),
         f" (total, RMS over {counted(error.total.size, 'segment')} of the scene), of which ",
         Strong(meters(float(error.relative_region))),
