@@ -107,7 +107,7 @@ def test_no_feasible_design_is_exit_3_with_a_report(study, tmp_path, capsys):
     assert (out / "report.pdf").exists()
     result = json.loads((out / "result.json").read_text(encoding="utf-8"))
     assert result["best"]["feasible"] is False
-    assert "short by" in result["warnings"][0]
+    assert "missed by" in result["warnings"][0]
 
 
 @pytest.mark.parametrize(

@@ -72,7 +72,7 @@ def _blocking(best: Assessment) -> str:
     broken = [
         f"{report.limit.name}: {report.value:.4g} {report.limit.unit}".rstrip()
         + f" against a limit of {report.limit.value:.4g} {report.limit.unit}".rstrip()
-        + f", short by {-report.margin:.4g} {report.limit.unit}".rstrip()
+        + f", missed by {-report.margin:.4g} {report.limit.unit}".rstrip()
         + f"; {report.limit.remedy}."
         for report in best.constraints
         if not report.satisfied
