@@ -176,75 +176,78 @@ class Constraints:
     @property
     def limits(self) -> tuple[Limit, ...]:
         """The limits that are on."""
-        limits: list[Limit] = []
-        if self.max_radius is not None:
-            limits.append(
-                Limit(
-                    name="radius of each relative orbit",
-                    unit="m",
-                    bound=Bound.AT_MOST,
-                    value=self.max_radius,
-                    remedy="allow a larger radius",
-                    quantity=_radius,
-                )
-            )
-        if self.min_separation is not None:
-            limits.append(
-                Limit(
-                    name="separation of each pair at all times",
-                    unit="m",
-                    bound=Bound.AT_LEAST,
-                    value=self.min_separation,
-                    remedy="allow a smaller separation, a larger radius or fewer satellites",
-                    quantity=_separation,
-                )
-            )
-        if self.min_unwrapping_probability is not None and self.prior_height_std is not None:
-            limits.append(
-                FailureLimit(
-                    name="unwrapping probability",
-                    unit="",
-                    bound=Bound.AT_LEAST,
-                    value=self.min_unwrapping_probability,
-                    remedy="use a better prior DEM, more looks, a smaller position error, more "
-                    "satellites or a lower probability",
-                    quantity=_unwrapping_failure(self.prior_height_std),
-                )
-            )
-        if self.max_baseline_fraction is not None:
-            limits.append(
-                Limit(
-                    name="perpendicular over critical baseline",
-                    unit="",
-                    bound=Bound.AT_MOST,
-                    value=self.max_baseline_fraction,
-                    remedy="allow a larger fraction or a smaller separation",
-                    quantity=_baseline_fraction,
-                )
-            )
-        if self.max_offset is not None:
-            limits.append(
-                Limit(
-                    name="radial offset |z0|",
-                    unit="m",
-                    bound=Bound.AT_MOST,
-                    value=self.max_offset,
-                    remedy="allow a larger offset",
-                    quantity=lambda population: np.abs(population.states[..., 0]),
-                )
-            )
-        if self.max_rate is not None:
-            limits.append(
-                Limit(
-                    name="radial rate |ż0|",
-                    unit="m/s",
-                    bound=Bound.AT_MOST,
-                    value=self.max_rate,
-                    remedy="allow a larger rate",
-                    quantity=lambda population: np.abs(population.states[..., 3]),
-                )
-            )
-        return tuple(limits)
+        candidates = (
+            _limit(
+                Bound.AT_MOST,
+                self.max_radius,
+                "m",
+                name="radius of each relative orbit",
+                remedy="allow a larger radius",
+                quantity=_radius,
+            ),
+            _limit(
+                Bound.AT_LEAST,
+                self.min_separation,
+                "m",
+                name="separation of each pair at all times",
+                remedy="allow a smaller separation, a larger radius or fewer satellites",
+                quantity=_separation,
+            ),
+            self._unwrapping_limit(),
+            _limit(
+                Bound.AT_MOST,
+                self.max_baseline_fraction,
+                "",
+                name="perpendicular over critical baseline",
+                remedy="allow a larger fraction or a smaller separation",
+                quantity=_baseline_fraction,
+            ),
+            _limit(
+                Bound.AT_MOST,
+                self.max_offset,
+                "m",
+                name="radial offset |z0|",
+                remedy="allow a larger offset",
+                quantity=lambda population: np.abs(population.states[..., 0]),
+            ),
+            _limit(
+                Bound.AT_MOST,
+                self.max_rate,
+                "m/s",
+                name="radial rate |ż0|",
+                remedy="allow a larger rate",
+                quantity=lambda population: np.abs(population.states[..., 3]),
+            ),
+        )
+        return tuple(limit for limit in candidates if limit is not None)
+
+    def _unwrapping_limit(self) -> FailureLimit | None:
+        probability, prior = self.min_unwrapping_probability, self.prior_height_std
+        if probability is None or prior is None:
+            return None
+        return FailureLimit(
+            name="unwrapping probability",
+            unit="",
+            bound=Bound.AT_LEAST,
+            value=probability,
+            remedy="use a better prior DEM, more looks, a smaller position error, more satellites "
+            "or a lower probability",
+            quantity=_unwrapping_failure(prior),
+        )
+
+
+def _limit(
+    bound: Bound,
+    value: float | None,
+    unit: str,
+    *,
+    name: str,
+    remedy: str,
+    quantity: Callable[[Population], Array],
+) -> Limit | None:
+    if value is None:
+        return None
+    return Limit(name=name, unit=unit, bound=bound, value=value, remedy=remedy, quantity=quantity)
 
 
 def _radius(population: Population) -> Array:
