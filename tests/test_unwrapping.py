@@ -84,8 +84,8 @@ def test_one_rung_is_the_prior_against_the_height_of_ambiguity():
         assert result[0] == pytest.approx(expected, rel=1e-9)
 
 
-def bootstrap_in_order(model, prior, order):
-    """Fix the cycle differences of images joined in a given order, by plain conditioning."""
+def float_covariance(model, prior):
+    """Covariance of the image phases relative to the first [cycles²], written out."""
     count = model.vertical_wavenumber.shape[-1]
     covariance = np.zeros((count, count))
     covariance[1:, 1:] = np.linalg.inv(model.information[0][1:, 1:])
@@ -93,7 +93,13 @@ def bootstrap_in_order(model, prior, order):
         relative = factor[0] - factor[0][:1]
         covariance += relative @ relative.T
     kz = model.vertical_wavenumber[0]
-    covariance = (covariance + prior**2 * np.outer(kz, kz)) / (2 * np.pi) ** 2
+    return (covariance + prior**2 * np.outer(kz, kz)) / (2 * np.pi) ** 2
+
+
+def bootstrap_in_order(model, prior, order):
+    """Fix the cycle differences of images joined in a given order, by plain conditioning."""
+    covariance = float_covariance(model, prior)
+    count = len(covariance)
     difference = np.zeros((count - 1, count))
     for row, (one, two) in enumerate(itertools.pairwise(order)):
         difference[row, one], difference[row, two] = -1, 1
@@ -116,6 +122,22 @@ def test_the_ladder_is_no_worse_than_any_chain(baselines, prior):
         for order in itertools.permutations(range(len(baselines) + 1))
     ]
     assert ladder.failure[0] <= min(chains) * (1 + 1e-6) + 1e-12
+
+
+@given(st.lists(st.floats(-1500, 1500), min_size=2, max_size=5, unique=True))
+def test_the_pairs_of_the_rungs_explain_their_deviations(baselines):
+    """The pairs named join all images, and conditioning on them in turn gives the deviations."""
+    count = len(baselines) + 1
+    radar = radar_for(count)
+    model = phase_model(ladder_positions([0.0, *baselines]), SCENE, radar=radar, errors=BUDGET)
+    ladder = unwrapping_ladder(model, prior_height_std=4.0)
+    difference = np.zeros((count - 1, count))
+    for row, (one, two) in enumerate(ladder.pairs[0]):
+        difference[row, one], difference[row, two] = -1, 1
+    assert np.linalg.matrix_rank(difference) == count - 1
+    covariance = difference @ float_covariance(model, 4.0) @ difference.T
+    expected = np.diag(np.linalg.cholesky(covariance))
+    assert_allclose(ladder.cycle_std[0], expected, rtol=1e-5)
 
 
 def test_bootstrapping_by_monte_carlo():

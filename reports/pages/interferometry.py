@@ -122,25 +122,11 @@ def unwrapping_section(
     rungs = rungs_frame(problem, ladder)
     names = [pair_name(problem, ladder.names, rung.images) for rung in ladder.unwrapping.rungs]
     worst = ladder.unwrapping.worst_segment + 1
-    text = (
-        "Cycles are found one pair after the other, the surest first; each rung starts from the "
-        f"prior height, known to {plain(ladder.unwrapping.prior_height_std)}\u00a0m, and the rungs "
-        "below it. Noise and systematic errors both count."
-    )
-    beyond = [str(number) for number in rungs_beyond_critical(problem, ladder)]
-    if beyond:
-        text += (
-            f" Rung {beyond[0]} joins" if len(beyond) == 1 else f" Rungs {joined(beyond)} each join"
-        )
-        text += (
-            " two images that have no common band with each other: the phase between them is known "
-            "through third images."
-        )
     return Section(
         "unwrapping",
         "Phase unwrapping",
         (
-            Paragraph(text),
+            Paragraph(_ladder_text(problem, ladder, ladder.unwrapping.prior_height_std)),
             Table(
                 rungs,
                 (
@@ -168,6 +154,22 @@ def unwrapping_section(
                 "deviation at each rung of the ladder.",
             ),
         ),
+    )
+
+
+def _ladder_text(problem: Problem, ladder: Assessment, prior_height_std: float) -> str:
+    text = (
+        "Cycles are found one pair after the other, the surest first; each rung starts from the "
+        f"prior height, known to {plain(prior_height_std)}\u00a0m, and the rungs below it. Noise "
+        "and systematic errors both count."
+    )
+    beyond = [str(number) for number in rungs_beyond_critical(problem, ladder)]
+    if not beyond:
+        return text
+    who = f"Rung {beyond[0]} joins" if len(beyond) == 1 else f"Rungs {joined(beyond)} each join"
+    return (
+        f"{text} {who} two images that have no common band with each other: the phase between "
+        "them is known through third images."
     )
 
 
