@@ -6,15 +6,26 @@ Loading needs neither scipy nor DEAP. `configs.build` does, and is imported by w
 from __future__ import annotations
 
 from .examples import example_names, example_path, example_text
+from .files import InputFile
 from .loader import LoadedStudy, effective_text, load_study
-from .messages import StudyError
-from .studies import STUDIES, EvaluateStudy, OptimizeStudy, Study, json_schema
+from .messages import BuildError, StudyError
+from .studies import (
+    STUDIES,
+    EvaluateStudy,
+    OptimizeStudy,
+    SteeringStudy,
+    Study,
+    json_schema,
+)
 
 __all__ = [
     "STUDIES",
+    "BuildError",
     "EvaluateStudy",
+    "InputFile",
     "LoadedStudy",
     "OptimizeStudy",
+    "SteeringStudy",
     "Study",
     "StudyError",
     "effective_text",

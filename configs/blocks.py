@@ -1,4 +1,4 @@
-"""The blocks that describe the mission: orbit, radar and errors."""
+"""The blocks that describe the instrument: radar and errors."""
 
 from __future__ import annotations
 
@@ -7,19 +7,6 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import Discriminator, Field, Tag, model_validator
 
 from .base import Block, Name, Number, wrong
-
-
-class OrbitBlock(Block):
-    """The circular reference orbit of the formation."""
-
-    altitude_km: Number = Field(
-        ge=150,
-        le=36_000,
-        description="Height above the equatorial radius of the Earth, 6378.137 km.",
-    )
-    inclination_deg: Number = Field(
-        ge=0, le=180, description="Angle between the orbit and the equator; above 90 retrograde."
-    )
 
 
 def _form_of_images(value: Any) -> str:

@@ -16,12 +16,26 @@ from formation import (
     ground_track_circular,
     space_circular,
 )
+from insar.observe import Observation
 from optimize import DesignSpace, GeneticSettings, Problem, SearchSettings
 
 from .domain import build_problem
 from .formations import ComparedFormation, Family, RadialStart, Satellite, Sign
 from .limits import SearchBlock
+from .observing import build_view
+from .steered import SteeringSetup, build_steering
 from .studies import EvaluateStudy, OptimizeStudy
+
+__all__ = [
+    "FAMILIES",
+    "EvaluateSetup",
+    "NamedStates",
+    "OptimizeSetup",
+    "SteeringSetup",
+    "build_evaluate",
+    "build_optimize",
+    "build_steering",
+]
 
 Array = NDArray[np.float64]
 
@@ -62,6 +76,7 @@ class OptimizeSetup(NamedTuple):
     compare : formations to show beside the result.
     critical_baseline : the smallest over the segments [m].
     orbit : the reference orbit.
+    observation : where the scene comes from; None if the study gives it.
     """
 
     problem: Problem
@@ -72,6 +87,7 @@ class OptimizeSetup(NamedTuple):
     compare: tuple[NamedStates, ...]
     critical_baseline: float
     orbit: Orbit
+    observation: Observation | None
 
 
 class EvaluateSetup(NamedTuple):
@@ -85,6 +101,7 @@ class EvaluateSetup(NamedTuple):
     compare : formations to show beside it.
     critical_baseline : the smallest over the segments [m].
     orbit : the reference orbit.
+    observation : where the scene comes from; None if the study gives it.
     """
 
     problem: Problem
@@ -93,6 +110,7 @@ class EvaluateSetup(NamedTuple):
     compare: tuple[NamedStates, ...]
     critical_baseline: float
     orbit: Orbit
+    observation: Observation | None
 
 
 def build_optimize(study: OptimizeStudy) -> OptimizeSetup:
@@ -101,9 +119,15 @@ def build_optimize(study: OptimizeStudy) -> OptimizeSetup:
     Parameters
     ----------
     study : the study.
+
+    Raises
+    ------
+    BuildError
+        If its targets are never seen, or a file that it names does not serve.
     """
     names, formation = study.formation.names, study.formation
-    problem, critical = build_problem(study, names, study.constraints)
+    view = build_view(study)
+    problem, critical = build_problem(study, names, study.constraints, view)
     constraints, n = problem.constraints, problem.mean_motion
     amplitude = math.inf if constraints.max_radius is None else constraints.max_radius / 2.0
     offset, rate = constraints.max_offset, constraints.max_rate
@@ -133,7 +157,8 @@ def build_optimize(study: OptimizeStudy) -> OptimizeSetup:
         initial_design=design,
         compare=_compare(study.compare, names, n, family=formation.family, sign=sign),
         critical_baseline=critical,
-        orbit=study.reference_orbit,
+        orbit=view.orbit,
+        observation=view.observation,
     )
 
 
@@ -143,9 +168,15 @@ def build_evaluate(study: EvaluateStudy) -> EvaluateSetup:
     Parameters
     ----------
     study : the study.
+
+    Raises
+    ------
+    BuildError
+        If its targets are never seen, or a file that it names does not serve.
     """
     names, formation = study.formation.names, study.formation
-    problem, critical = build_problem(study, names, study.constraints)
+    view = build_view(study)
+    problem, critical = build_problem(study, names, study.constraints, view)
     n, family, sign = problem.mean_motion, formation.family, formation.cross_track_sign
     return EvaluateSetup(
         problem=problem,
@@ -153,7 +184,8 @@ def build_evaluate(study: EvaluateStudy) -> EvaluateSetup:
         states=_states(formation.satellites, names, n, family=family, sign=sign),
         compare=_compare(study.compare, names, n, family=family, sign=sign),
         critical_baseline=critical,
-        orbit=study.reference_orbit,
+        orbit=view.orbit,
+        observation=view.observation,
     )
 
 

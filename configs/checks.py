@@ -15,6 +15,8 @@ from .base import wrong
 from .blocks import RadarBlock
 from .formations import ComparedFormation, RadialStart, Satellite
 from .messages import KeyPath, did_you_mean, show
+from .observation import ObservationBlock
+from .orbits import OrbitBlock
 from .scenes import SceneBlock, StripBlock, TableBlock, check_slope
 
 RESULT_LABELS = ("initial", "best", "formation")
@@ -55,6 +57,33 @@ def check_table(table: TableBlock, orbit: Orbit) -> None:
                 f"is less than the altitude of the orbit, {altitude:g}",
                 "check both, and their units",
             )
+
+
+def check_observation(observation: ObservationBlock, orbit: OrbitBlock) -> None:
+    """The orbit is known above the turning Earth, and its beam meets the ground."""
+    if not orbit.is_placed:
+        raise wrong(
+            ("orbit",),
+            "lacks an epoch, without which nobody knows when the satellite is above the targets",
+            "add epoch: 2026-11-23T05:07:00Z, or give tle, tle_file or oem_file",
+        )
+    if observation.look_deg is not None:
+        check_beam(observation.look_deg, orbit, ("scene", "observation", "look_deg"))
+
+
+def check_beam(look_deg: float, orbit: OrbitBlock, at: KeyPath) -> None:
+    """A look angle meets the Earth at least from the perigee."""
+    if orbit.source is not None:
+        return
+    perigee = orbit.semi_major_axis * (1.0 - (orbit.eccentricity or 0.0))
+    limit = math.degrees(math.asin(min(1.0, EARTH_EQUATORIAL_RADIUS / perigee)))
+    if look_deg >= limit:
+        altitude = (perigee - EARTH_EQUATORIAL_RADIUS) / 1e3
+        raise wrong(
+            at,
+            f"misses the Earth: from {altitude:g} km it must be below {limit:.2f}",
+            "choose a smaller look angle",
+        )
 
 
 def check_names(names: Sequence[str]) -> None:

@@ -1,4 +1,4 @@
-"""Builds radar, scene, errors and limits from a study: km, degrees and dB end here."""
+"""Builds radar, errors and limits from a study: degrees and dB end here."""
 
 from __future__ import annotations
 
@@ -8,14 +8,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from formation import Orbit
-from formation.constants import EARTH_EQUATORIAL_RADIUS
 from insar import (
     BaselineDecorrelation,
     ErrorBudget,
     ErrorSource,
     HeldConstant,
-    LookSide,
     Radar,
     Scale,
     Scene,
@@ -30,12 +27,12 @@ from optimize import Constraints, Problem
 
 from .blocks import ErrorsBlock, RadarBlock
 from .limits import LimitsBlock
-from .scenes import SceneBlock, TableBlock
+from .observing import View
 from .studies import FormationStudy
 
 
 def build_problem(
-    study: FormationStudy, names: Sequence[str], limits: LimitsBlock
+    study: FormationStudy, names: Sequence[str], limits: LimitsBlock, view: View
 ) -> tuple[Problem, float]:
     """Build what formations are scored by.
 
@@ -44,18 +41,17 @@ def build_problem(
     study : the study.
     names : name of each satellite.
     limits : its limits.
+    view : its reference orbit and scene.
 
     Returns
     -------
     problem : in SI units and radians.
     critical_baseline : the smallest over the segments, for the radar's multiplicity [m].
     """
-    orbit = study.reference_orbit
-    radar = _radar(study.radar, names)
-    scene = _scene(study.scene, orbit)
+    radar, scene = _radar(study.radar, names), view.scene
     critical = float(scene_critical_baseline(scene, radar, multiplicity=radar.multiplicity).min())
     problem = Problem(
-        mean_motion=orbit.mean_motion,
+        mean_motion=view.orbit.mean_motion,
         scene=scene,
         radar=radar,
         errors=_errors(study.errors, radar, scene),
@@ -79,33 +75,6 @@ def _radar(block: RadarBlock, names: Sequence[str]) -> Radar:
         looks=block.looks,
         images=images,
         other_coherence=block.other_coherence,
-    )
-
-
-def _scene(block: SceneBlock, orbit: Orbit) -> Scene:
-    given = block.given
-    if isinstance(given, TableBlock):
-        return _table(given)
-    middle = (np.arange(given.segments) + 0.5) / given.segments
-    return Scene.broadside_strip(
-        times=given.start_s + given.duration_s * middle,
-        look_angle=math.radians(given.look_deg),
-        altitude=orbit.altitude,
-        earth_radius=EARTH_EQUATORIAL_RADIUS,
-        side={"left": LookSide.LEFT, "right": LookSide.RIGHT}[given.side],
-        slope=math.radians(given.slope_deg),
-    )
-
-
-def _table(table: TableBlock) -> Scene:
-    incidence = table.look_deg if table.incidence_deg is None else table.incidence_deg
-    return Scene(
-        times=np.array(table.times_s),
-        slant_range=1e3 * np.array(table.slant_range_km),
-        look_angle=np.radians(table.look_deg),
-        azimuth=np.radians(table.azimuth_deg),
-        incidence=np.radians(incidence),
-        slope=np.radians(table.slope_deg),
     )
 
 

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 from pydantic import ValidationError
 
-from .base import CROSS_CHECK, Block
+from .base import CROSS_CHECK, MISSING_KEY, Block
 from .messages import (
     Finding,
     KeyPath,
@@ -24,6 +24,9 @@ from .schema import Schema, block_at, describe, resolve, schema_at
 
 MAX_FINDINGS = 5
 """Findings that one message lists; the others are counted."""
+
+_EXAMPLES = {"steering": "terrasar_x"}
+"""Example to copy a block from, for the kinds other than those of `three_sat`."""
 
 _SHORT = 45
 """Longest list that is shown with its key."""
@@ -45,6 +48,8 @@ def explain(
     details = {}
     for detail in error.errors(include_url=False):
         path, kind = _real_path(detail["loc"], document.data, detail["type"]), detail["type"]
+        if kind == MISSING_KEY:
+            path, kind = (*path, detail["ctx"]["key"]), "missing"
         if kind == "missing" and isinstance(path[-1], int):  # a list that is too short
             path, kind = path[:-1], "too_short"
         details[path] = (kind, detail.get("ctx", {}))
@@ -70,6 +75,20 @@ def explain(
     return study_error(file, findings, more=len(mistakes) - len(findings))
 
 
+def located(at: KeyPath, text: str, document: Document, *, file: str) -> StudyError:
+    """One message for a value that is refused after the validation.
+
+    Parameters
+    ----------
+    at : path of the value; it may come by default.
+    text : what is wrong, and the remedy.
+    document : the data and the places of its values.
+    file : its name.
+    """
+    finding = Finding(f"{_assignment(at, document.data)} {text}", _place(at, document))
+    return study_error(file, [finding])
+
+
 class _Mistake(NamedTuple):
     """One thing that pydantic found."""
 
@@ -92,7 +111,7 @@ class _Mistake(NamedTuple):
             return _unknown_key(self.path, schema)
         allowed = schema_at(schema, self.path)
         if self.kind == "missing":
-            return _missing(self.path, allowed)
+            return _missing(self.path, allowed, schema)
         return _wrong_value(self.path, document.data, allowed)
 
 
@@ -137,7 +156,10 @@ def _assignment(path: KeyPath, data: Any) -> str:
     if not path:
         return "the study"
     value = _value(path, data)
-    if isinstance(value, dict) or (isinstance(value, list) and len(show(value)) > _SHORT):
+    several_lines = isinstance(value, str) and "\n" in value
+    if isinstance(value, dict) or several_lines:
+        return show_path(path)
+    if isinstance(value, list) and len(show(value)) > _SHORT:
         return show_path(path)
     return f"{show_path(path)} = {show(value)}"
 
@@ -162,14 +184,15 @@ def _home(key: str, schema: Schema) -> str | None:
     return None
 
 
-def _missing(path: KeyPath, schema: Schema) -> str:
-    about = schema.get("description", "").rstrip(".")
-    if resolve(schema).get("type") == "object":
+def _missing(path: KeyPath, allowed: Schema, schema: Schema) -> str:
+    about = allowed.get("description", "").rstrip(".")
+    if resolve(allowed).get("type") == "object":
+        kind = schema_at(schema, ("kind",)).get("const", "")
         return (
             f"{show_path(path)} is missing ({about}); add this block as in the example that "
-            "formation-opt --new three_sat prints"
+            f"formation-opt --new {_EXAMPLES.get(kind, 'three_sat')} prints"
         )
-    return f"{show_path(path)} is missing; add {describe(schema, str(path[-1]))} ({about})"
+    return f"{show_path(path)} is missing; add {describe(allowed, str(path[-1]))} ({about})"
 
 
 def _wrong_value(path: KeyPath, data: Any, schema: Schema) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import re
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -11,9 +12,18 @@ import yaml
 from pydantic import BaseModel, ValidationError
 
 from .examples import example_names
-from .explain import explain
-from .messages import Finding, closest, did_you_mean, show, study_error
-from .reader import MAX_BYTES, read_document
+from .explain import explain, located
+from .files import InputFile
+from .messages import (
+    BuildError,
+    Finding,
+    StudyError,
+    closest,
+    did_you_mean,
+    show,
+    study_error,
+)
+from .reader import MAX_BYTES, Document, read_document
 from .studies import DEFAULT_KIND, STUDIES, Study
 
 
@@ -36,6 +46,8 @@ def _said(value: Any) -> Any:
             for name, field in type(value).model_fields.items()
             if getattr(value, name) is not None or field.default is not None
         }
+    if isinstance(value, InputFile):
+        return value.name
     return [_said(item) for item in value] if isinstance(value, tuple) else value
 
 
@@ -47,11 +59,26 @@ class LoadedStudy(NamedTuple):
     study : the study, of the class of its kind.
     source_text : the text of the file.
     sha256 : hexadecimal digest of the file's bytes.
+    file : name of the file.
+    document : its data, and where each value stands.
+    files : the files that the study names, in its order.
     """
 
     study: Study
     source_text: str
     sha256: str
+    file: str
+    document: Document
+    files: tuple[InputFile, ...]
+
+    def located(self, error: BuildError) -> StudyError:
+        """The error of a build with its place in the file, as every other error has it.
+
+        Parameters
+        ----------
+        error : from building what the study describes.
+        """
+        return located(error.at, error.text, self.document, file=self.file)
 
 
 def load_study(source: Path) -> LoadedStudy:
@@ -92,11 +119,31 @@ def load_study(source: Path) -> LoadedStudy:
         raise study_error(file, [finding])
     model = STUDIES[kind]
     try:
-        study = model.model_validate({"name": _default_name(source), **data})
+        study = model.model_validate(
+            {"name": _default_name(source), **data}, context={"folder": source.parent}
+        )
     except ValidationError as error:
         raise explain(error, document, model, file=file) from None
-    text = content.decode("utf-8-sig")
-    return LoadedStudy(study, text, hashlib.sha256(content).hexdigest())
+    return LoadedStudy(
+        study=study,
+        source_text=content.decode("utf-8-sig"),
+        sha256=hashlib.sha256(content).hexdigest(),
+        file=file,
+        document=document,
+        files=tuple(dict.fromkeys(_files(study))),
+    )
+
+
+def _files(value: Any) -> Iterator[InputFile]:
+    """The files that a block names."""
+    if isinstance(value, InputFile):
+        yield value
+    elif isinstance(value, BaseModel):
+        for name in type(value).model_fields:
+            yield from _files(getattr(value, name))
+    elif isinstance(value, tuple):
+        for item in value:
+            yield from _files(item)
 
 
 def _default_name(source: Path) -> str:

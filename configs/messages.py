@@ -17,6 +17,21 @@ class StudyError(Exception):
     """A study that can't be used; the text is one complete message for its author."""
 
 
+class BuildError(StudyError):
+    """A valid study that what computes with it refuses; `LoadedStudy.located` adds the place.
+
+    Parameters
+    ----------
+    at : path of the value to blame.
+    text : what is wrong with it and the remedy.
+    """
+
+    def __init__(self, at: KeyPath, text: str) -> None:
+        super().__init__(f"{show_path(at)} {text}")
+        self.at = at
+        self.text = text
+
+
 class Mark(NamedTuple):
     """A place in a file, counted from 1."""
 

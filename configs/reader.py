@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 import yaml
 
 from .messages import Finding, KeyPath, Mark, StudyError, printable, show_path, study_error
+from .texts import NotTextError, decode
 
 MAX_BYTES = 1_000_000
 MAX_DEPTH = 50
@@ -24,7 +25,6 @@ _TOO_MANY = (
     f"holds more than {MAX_VALUES} values, counting what aliases (*name) stand for; shorten it"
 )
 _TAG = "tag:yaml.org,2002:"
-_UNREADABLE = re.compile("[^\t\n\r\x20-\x7e\x85\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
 
 class Document(NamedTuple):
@@ -73,28 +73,10 @@ def _decode(content: bytes, file: str) -> str:
             f"is larger than {MAX_BYTES // 1000} kB, the limit for a study; is it another file?"
         )
         raise study_error(file, [finding])
-    if content.startswith((b"\xff\xfe", b"\xfe\xff")):
-        raise study_error(file, [Finding("is UTF-16 text; save it as UTF-8")])
     try:
-        text = content.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        mark = _place(content[: error.start].decode("utf-8", "replace"))
-        finding = Finding(
-            f"byte 0x{content[error.start]:02x} is not UTF-8 text; save the file as UTF-8", mark
-        )
-        raise study_error(file, [finding]) from None
-    wrong = _UNREADABLE.search(text)
-    if wrong:
-        finding = Finding(
-            f"character U+{ord(wrong.group()):04X} does not belong in text; is it a binary file?",
-            _place(text[: wrong.start()]),
-        )
-        raise study_error(file, [finding])
-    return text
-
-
-def _place(before: str) -> Mark:
-    return Mark(before.count("\n") + 1, len(before) - before.rfind("\n"))
+        return decode(content)
+    except NotTextError as error:
+        raise study_error(file, [Finding(error.text, error.mark)]) from None
 
 
 def _mark(mark: Any) -> Mark:

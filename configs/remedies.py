@@ -21,12 +21,21 @@ _GUESSES: dict[str, list[_Guess]] = {
         ("GHz", lambda value: _SPEED_OF_LIGHT / (1e9 * value)),
         ("Hz", lambda value: _SPEED_OF_LIGHT / value),
     ],
+    "_deg_s": [("radians per second", math.degrees)],
     "_m_s": [("mm/s", lambda value: value / 1e3)],
     "_km": [("meters", lambda value: value / 1e3)],
     "_m": [_MILLI, ("kilometers", lambda value: value * 1e3)],
     "_deg": [("radians", math.degrees)],
     "_db": [("linear scale", lambda value: 10.0 * math.log10(value))],
     "_s": [("milliseconds", lambda value: value / 1e3)],
+    "_min": [
+        ("seconds", lambda value: value / 60.0),
+        ("hours", lambda value: value * 60.0),
+    ],
+    "_days": [
+        ("hours", lambda value: value / 24.0),
+        ("seconds", lambda value: value / 86_400.0),
+    ],
     "probability": [("percent", lambda value: value / 1e2 if value >= 2.0 else math.nan)],
     "coherence": [("percent", lambda value: value / 1e2 if value >= 2.0 else math.nan)],
 }

@@ -9,6 +9,7 @@ from pydantic import Field, model_validator
 
 from .base import Block, Number, Whole, wrong
 from .messages import KeyPath
+from .observation import ObservationBlock
 
 _GRAZING_DEG = 89.0
 """Largest local incidence: beyond, the critical baseline and the slant range lose their meaning."""
@@ -136,26 +137,32 @@ def check_slope(slope_deg: float, incidence_deg: tuple[float, ...], at: KeyPath)
 
 
 class SceneBlock(Block):
-    """What is observed: a strip or a table of segments."""
+    """What is observed: a strip, a table of segments, or targets on the real Earth."""
 
     strip: StripBlock | None = Field(
-        default=None, description="A broadside strip at one look angle; or give a table."
+        default=None, description="A broadside strip at one look angle; or give another."
     )
     table: TableBlock | None = Field(
-        default=None, description="Segments of your own, column by column; or give a strip."
+        default=None, description="Segments of your own, column by column; or give another."
+    )
+    observation: ObservationBlock | None = Field(
+        default=None,
+        description="Targets on the real Earth, seen from the study's orbit; or give another.",
     )
 
     @model_validator(mode="after")
     def _check(self) -> Self:
-        if (self.strip is None) == (self.table is None):
+        given = [key for key in type(self).model_fields if getattr(self, key) is not None]
+        if len(given) != 1:
             raise wrong(
                 (),
-                "needs exactly one of strip and table",
-                "add 'strip: {look_deg: 23}'" if self.strip is None else "remove one of them",
+                "needs exactly one of strip, table and observation",
+                "keep one of them" if given else "add 'strip: {look_deg: 23}'",
             )
         return self
 
     @property
-    def given(self) -> StripBlock | TableBlock:
-        """The strip or the table."""
-        return next(shape for shape in (self.strip, self.table) if shape is not None)
+    def given(self) -> StripBlock | TableBlock | ObservationBlock:
+        """The strip, the table or the observation."""
+        shapes = (self.strip, self.table, self.observation)
+        return next(shape for shape in shapes if shape is not None)

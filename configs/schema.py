@@ -9,7 +9,17 @@ from .messages import KeyPath
 
 Schema = dict[str, Any]
 
-_UNITS = {"_m_s": "m/s", "_km": "km", "_m": "m", "_deg": "degrees", "_db": "dB", "_s": "s"}
+_UNITS = {
+    "_deg_s": "degrees per second",
+    "_m_s": "m/s",
+    "_km": "km",
+    "_m": "m",
+    "_deg": "degrees",
+    "_db": "dB",
+    "_s": "s",
+    "_min": "minutes",
+    "_days": "days",
+}
 _DEFINITIONS = "$defs"
 
 
@@ -100,6 +110,10 @@ def _number(schema: Schema, key: str) -> str:
 
 
 def _text(schema: Schema) -> str:
+    if schema.get("format") == "path":
+        return "the name of a file"
+    if "examples" in schema:
+        return f"text such as '{schema['examples'][0]}'"
     limit = f" of at most {schema['maxLength']} characters" if "maxLength" in schema else ""
     if r"\w" in schema.get("pattern", ""):
         return f"text{limit}: letters, digits and '_', with '.' and '-' between them"

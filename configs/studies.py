@@ -2,28 +2,43 @@
 
 from __future__ import annotations
 
-import math
-from typing import Any, Literal, Self, Union
+from typing import Annotated, Any, Literal, Self, Union
 
 from pydantic import Field, TypeAdapter, model_validator
 
 from formation import Orbit
 
-from .base import Block, Prose, StudyName
-from .blocks import ErrorsBlock, OrbitBlock, RadarBlock
+from .base import Block, Prose, StudyName, Whole
+from .blocks import ErrorsBlock, RadarBlock
 from .checks import (
     check_drift,
     check_images,
     check_labels,
     check_members,
     check_names,
+    check_observation,
     check_size,
     check_strip,
     check_table,
 )
+from .claims import ClaimBlock
 from .formations import ComparedFormation, EvaluatedFormation, SearchedFormation
 from .limits import LimitsBlock, SearchBlock, SearchLimitsBlock
+from .observation import SideName
+from .orbits import OrbitBlock, build_reference
 from .scenes import SceneBlock
+from .steering import (
+    LAWS,
+    BoresightBlock,
+    CaseBlock,
+    CompensationBlock,
+    Laws,
+    SelectionBlock,
+    SteeredRadarBlock,
+    SwathOffset,
+    check_laws,
+)
+from .steering_checks import check_cases, check_claims, check_samples
 
 
 class Study(Block):
@@ -53,11 +68,8 @@ class FormationStudy(Study):
 
     @property
     def reference_orbit(self) -> Orbit:
-        """The reference orbit, in SI units."""
-        return Orbit.circular(
-            altitude=1e3 * self.orbit.altitude_km,
-            inclination=math.radians(self.orbit.inclination_deg),
-        )
+        """The circular reference orbit, in SI units."""
+        return build_reference(self.orbit)
 
     def _check_common(self, names: tuple[str, ...]) -> None:
         orbit = self.reference_orbit
@@ -65,6 +77,8 @@ class FormationStudy(Study):
             check_strip(self.scene.strip, orbit)
         if self.scene.table is not None:
             check_table(self.scene.table, orbit)
+        if self.scene.observation is not None:
+            check_observation(self.scene.observation, self.orbit)
         check_names(names)
         check_images(self.radar, names)
         check_labels(self.compare)
@@ -112,8 +126,70 @@ class EvaluateStudy(FormationStudy):
         return self
 
 
+class SteeringStudy(Study):
+    """Compare attitude steering laws around orbits, and check printed figures."""
+
+    kind: Literal["steering"] = Field(description="What the study does.")
+    radar: SteeredRadarBlock = Field(description="The radar.")
+    side: SideName = Field(
+        default="right", description="Side of the flight direction that the radar looks to."
+    )
+    boresight: BoresightBlock = Field(description="What the center of the beam holds constant.")
+    laws: Laws = Field(default=LAWS, description="Steering laws to compare.")
+    samples: Whole = Field(
+        default=721, ge=9, le=100_001, description="Samples of a revolution, both ends included."
+    )
+    revolutions: Whole = Field(
+        default=1, ge=1, le=100, description="Revolutions that are computed, from the epoch on."
+    )
+    swath_offsets_deg: Annotated[tuple[SwathOffset, ...], Field(min_length=1, max_length=21)] = (
+        Field(
+            default=(-0.5, -0.25, 0, 0.25, 0.5),
+            description="Elevations off the boresight, positive away from nadir, at which the "
+            "Doppler is computed.",
+        )
+    )
+    cases: Annotated[tuple[CaseBlock, ...], Field(min_length=1, max_length=12)] = Field(
+        description="Orbits on which the laws are compared."
+    )
+    selections: tuple[SelectionBlock, ...] = Field(
+        default=(),
+        max_length=6,
+        description="Where which of two laws is the better one: over altitude and inclination.",
+    )
+    compensation: CompensationBlock | None = Field(
+        default=None, description="How much the simplified yaw law of Meng 2003 compensates."
+    )
+    claims: tuple[ClaimBlock, ...] = Field(
+        default=(), max_length=100, description="Printed figures to compare with."
+    )
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        check_laws(self.laws)
+        check_cases(self.cases, self.boresight)
+        check_samples(
+            self.cases,
+            self.laws,
+            samples=self.samples * self.revolutions,
+            offsets=len(self.swath_offsets_deg),
+        )
+        check_claims(
+            self.claims,
+            cases=self.cases,
+            laws=self.laws,
+            selections=self.selections,
+            compensation=self.compensation,
+        )
+        return self
+
+
 DEFAULT_KIND = "optimize"
-STUDIES: dict[str, type[Study]] = {"optimize": OptimizeStudy, "evaluate": EvaluateStudy}
+STUDIES: dict[str, type[Study]] = {
+    "optimize": OptimizeStudy,
+    "evaluate": EvaluateStudy,
+    "steering": SteeringStudy,
+}
 
 
 def json_schema() -> dict[str, Any]:

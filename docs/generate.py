@@ -12,15 +12,21 @@ import math
 import re
 import tomllib
 from collections.abc import Callable, Iterator, Sequence
+from datetime import UTC, datetime
 from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
+from scipy.integrate import solve_ivp
 from scipy.optimize import minimize_scalar
 from scipy.stats import multivariate_normal
 
+from configs import load_study
+from configs.build import SteeringSetup, build_steering
 from formation import (
+    Elements,
+    KeplerianOrbit,
     Orbit,
     ground_track_circular,
     min_separation,
@@ -28,11 +34,18 @@ from formation import (
     relative_positions,
     space_circular,
 )
+from formation.constants import (
+    EARTH_EQUATORIAL_RADIUS,
+    EARTH_GRAVITATIONAL_PARAMETER,
+    EARTH_J2,
+)
+from formation.j2 import drifted, osculating_states
 from insar import (
     BaselineDecorrelation,
     ErrorBudget,
     ErrorSource,
     HeldConstant,
+    LookSide,
     Radar,
     Scene,
     SharedBy,
@@ -50,6 +63,25 @@ from insar import (
     unwrapping_ladder,
 )
 from insar.baselines import sensitivity
+from insar.observe import (
+    CaseResult,
+    Compensation,
+    FixedIncidence,
+    Held,
+    Law,
+    LawCurves,
+    SelectionRequest,
+    SteeringCase,
+    assess_case,
+    compensate,
+    judge,
+    select,
+)
+from insar.observe.earth import intersect, to_geodetic
+from insar.observe.look import angle_at_look, zero_doppler_plane
+from insar.observe.spotlight import spotlight
+from insar.observe.spotlight_results import SpotlightRequest, SpotlightResult
+from insar.observe.studies.claims import largest_angle, largest_rate
 from insar.phase_information import independent_pairs_information, pair_phase_variance
 from optimize import (
     Assessment,
@@ -751,6 +783,327 @@ def _realistic_checks() -> Iterator[Check]:
         yield Check(f"three satellites, X band: {name}", str(case[key]), source, value, 3)
 
 
+# -- steering ------------------------------------------------------------------------------------
+
+# Altitude [m], inclination [deg], eccentricity, incidence [deg], J2: Zhao 2019 Table 1, TerraSAR-X.
+STEERED_ORBITS = {
+    "LEO": (514e3, 97.42, 0.003, 45.0, False),
+    "MEO": (12_000e3, 40.0, 0.003, 45.0, False),
+    "GEO": (35_792e3, 30.0, 0.003, 45.0, False),
+    "TerraSAR-X": (514.8e3, 97.44, 0.00118, 35.0, False),
+    "TerraSAR-X, J2": (514.8e3, 97.44, 0.00118, 35.0, True),
+}
+
+
+def steered(name: str) -> CaseResult:
+    """Every law over one revolution of an orbit, right-looking at 0.031 m."""
+    altitude, inclination, eccentricity, incidence, j2 = STEERED_ORBITS[name]
+    axis = EARTH_EQUATORIAL_RADIUS + altitude
+    elements = Elements(axis, eccentricity, math.radians(inclination), 0.0, math.pi / 2, 0.0)
+    epoch = datetime(2020, 1, 1, tzinfo=UTC)
+    period = 2.0 * math.pi * math.sqrt(axis**3 / EARTH_GRAVITATIONAL_PARAMETER)
+    return assess_case(
+        SteeringCase(
+            name=name,
+            trajectory=KeplerianOrbit(elements=elements, epoch=epoch, j2=j2),
+            times=np.linspace(0.0, period, 1441),
+            wavelength=0.031,
+            side=LookSide.RIGHT,
+            boresight=FixedIncidence(math.radians(incidence)),
+            laws=tuple(Law),
+            swath_offsets=np.deg2rad([-0.5, 0.5]),
+        )
+    )
+
+
+def steering_laws() -> str:
+    """Largest angles, rates and Doppler of each law on each orbit."""
+    rows = []
+    for name in STEERED_ORBITS:
+        for curves in steered(name).curves:
+            angles = np.rad2deg([curves.yaw, curves.pitch, curves.roll])
+            rate = np.rad2deg(np.linalg.norm(curves.rate_orbit, axis=-1))
+            doppler = (curves.residual_doppler, curves.swath_doppler)
+            rows.append(
+                [
+                    f"{name}, {curves.law.value}",
+                    *(f"{np.max(np.abs(angle)):.2f}" for angle in angles),
+                    f"{np.max(rate):.4f}",
+                    *(f"{np.max(np.abs(f)):.0f}" for f in doppler),
+                ]
+            )
+    head = ["", "yaw [°]", "pitch [°]", "roll [°]", "rate [°/s]", "boresight [Hz]", "±0.5° [Hz]"]
+    return markdown_table(head, rows)
+
+
+# -- orbits --------------------------------------------------------------------------------------
+
+
+def _flattened(_: float, state: np.ndarray) -> np.ndarray:
+    """Rate of a state in the field of a flattened Earth."""
+    position = state[:3]
+    radius = float(np.linalg.norm(position))
+    flattening = 1.5 * EARTH_J2 * (EARTH_EQUATORIAL_RADIUS / radius) ** 2
+    factors = 1.0 - flattening * (5.0 * (position[2] / radius) ** 2 - np.array([1.0, 1.0, 3.0]))
+    pull = -EARTH_GRAVITATIONAL_PARAMETER / radius**3 * position * factors
+    return np.concatenate([state[3:], pull])
+
+
+def _theory_error(eccentricity: float, inclination: float, duration: float) -> float:
+    """Largest distance of the theory from the integrated orbit [m]."""
+    axis = (EARTH_EQUATORIAL_RADIUS + 600e3) / (1.0 - eccentricity)
+    mean = Elements(axis, eccentricity, math.radians(inclination), 1.0, 0.7, 0.4)
+    times = np.linspace(0.0, duration, 1000)
+    start = np.concatenate(osculating_states(mean))
+    integrated = solve_ivp(
+        _flattened, (0.0, duration), start, "DOP853", times, rtol=1e-12, atol=1e-6
+    ).y[:3]
+    theory = osculating_states(drifted(mean, times)).position
+    return float(np.linalg.norm(theory - integrated.T, axis=-1).max())
+
+
+def mean_elements() -> str:
+    """Mean elements with secular drift against numerical integration."""
+    inclinations = (90.0, 97.44, 63.43, 5.0)
+    rows = [
+        [
+            f"e = {eccentricity:g}",
+            *(
+                " / ".join(
+                    f"{_theory_error(eccentricity, inclination, duration):.0f}"
+                    for duration in (6000.0, 86_400.0)
+                )
+                for inclination in inclinations
+            ),
+        ]
+        for eccentricity in (0.0, 0.001, 0.1, 0.3)
+    ]
+    head = ["6000 s / 1 day [m]", *(f"i = {inclination:g}°" for inclination in inclinations)]
+    return markdown_table(head, rows)
+
+
+# -- Zhao 2019 and Meng 2003 ---------------------------------------------------------------------
+
+
+@cache
+def steering_study(name: str) -> SteeringSetup:
+    """A shipped study of steering."""
+    study = load_study(DOCS.parent / "configs" / f"{name}.yaml").study
+    return build_steering(study)
+
+
+@cache
+def steering_cases(name: str) -> tuple[CaseResult, ...]:
+    """The cases of a shipped study of steering, assessed."""
+    return tuple(assess_case(case) for case in steering_study(name).cases)
+
+
+@cache
+def compensation() -> Compensation:
+    """What the study of Meng 2003 compensates."""
+    return compensate(steering_study("meng2003_yaw").compensation)
+
+
+def verdicts(name: str) -> str:
+    """The claims of a shipped study, judged."""
+    study = steering_study(name)
+    selections = tuple(select(request) for request in study.selections)
+    found = compensation() if study.compensation else None
+    rows = []
+    for spec in study.claims:
+        claim = judge(spec, cases=steering_cases(name), selections=selections, compensation=found)
+        # What rounding leaves of a Doppler that is zero differs between platforms.
+        shown = "0" if abs(claim.computed) < 1e-6 else digits(claim.computed, 4)
+        unit = claim.unit if claim.unit in ("°", "") else f" {claim.unit}"
+        rows.append([claim.text, claim.printed, shown + unit, claim.verdict.value, claim.note])
+    head = ["figure", "printed", "from the stated inputs", "verdict", "why"]
+    return markdown_table(head, rows)
+
+
+def zhao2019_incidences() -> str:
+    """Pitch-roll steering of the geosynchronous orbit at the incidences of figure 4."""
+    cases = {case.name: case for case in steering_cases("zhao2019_geosar")}
+    rows = []
+    for incidence, name in [
+        ("15°", "GEO at 15°"),
+        ("30°", "GEO at 30°"),
+        ("45°", "GEO"),
+        ("60°", "GEO at 60°"),
+    ]:
+        yawed, rolled = cases[name].of(Law.YAW_PITCH), cases[name].of(Law.PITCH_ROLL)
+        angles = [np.rad2deg(np.abs(angle).max()) for angle in (rolled.pitch, rolled.roll)]
+        ratios = [measure(yawed) / measure(rolled) for measure in (largest_angle, largest_rate)]
+        off_nadir = np.rad2deg(rolled.off_nadir.max())
+        rows.append([incidence, *(digits(v, 3) for v in (off_nadir, *angles, *ratios))])
+    head = ["incidence", "look [°]", "pitch [°]", "roll [°]", "angle ratio", "rate ratio"]
+    return markdown_table(head, rows)
+
+
+def zhao2019_price() -> str:
+    """What both laws leave over the swath, and what they cost."""
+    rows = []
+    for case in steering_cases("zhao2019_geosar")[:3]:
+        for law in (Law.YAW_PITCH, Law.PITCH_ROLL):
+            rows.append([f"{case.name}, {law.value}", *_price(case.of(law))])
+    head = [
+        "",
+        "total angle [°]",
+        "rate [°/s]",
+        "boresight [Hz]",
+        "0.25° off it [Hz]",
+        "0.5° off it [Hz]",
+    ]
+    return markdown_table(head, rows)
+
+
+def _price(curves: LawCurves) -> list[str]:
+    doppler = np.abs(curves.swath_doppler).max(axis=0)  # at −0.5°, −0.25°, 0°, 0.25°, 0.5°
+    return [
+        f"{np.rad2deg(curves.steering_angle.max()):.2f}",
+        f"{np.rad2deg(largest_rate(curves)):.4f}",
+        *(f"{value:.0f}" for value in doppler[2:]),
+    ]
+
+
+def zhao2019_crossovers() -> str:
+    """Where the total steering angles are equal, by what figure 6 does not say."""
+    perigee = math.pi / 2
+    variants = [
+        ("circular", 0.0, LookSide.RIGHT),
+        ("e = 0.003, right", 0.003, LookSide.RIGHT),
+        ("e = 0.003, left", 0.003, LookSide.LEFT),
+    ]
+    rows = []
+    for held, angle in [(Held.LOOK, 7.53), (Held.INCIDENCE, 45.0)]:
+        for name, eccentricity, side in variants:
+            found = select(
+                SelectionRequest(
+                    altitudes=np.linspace(500e3, 36_000e3, 143),
+                    inclinations=np.deg2rad([30.0, 80.0]),
+                    held=held,
+                    boresight_angle=math.radians(angle),
+                    slew_rate=math.radians(0.02),
+                    swath_offset=math.radians(0.5),
+                    wavelength=0.031,
+                    side=side,
+                    eccentricity=eccentricity,
+                    argument_of_perigee=perigee,
+                )
+            )
+            cells = [" / ".join(f"{h / 1e3:.0f}" for h in each) for each in found.crossovers]
+            rows.append([f"{held.value} {angle:g}°, {name}", *cells])
+    return markdown_table(["held, orbit", "i = 30° [km]", "i = 80° [km]"], rows)
+
+
+def meng2003_effects() -> str:
+    """The deviation of the simplified model, effect by effect."""
+    rows = []
+    for curve in compensation().curves:
+        name = curve.effect.value.replace("_", " ")
+        if curve.eccentricity > 0.0:
+            perigee = math.degrees(curve.argument_of_perigee)
+            name += f", e = {curve.eccentricity:g}, perigee at {perigee:.0f}°"
+        exact, left = np.abs(curve.exact).max(), np.abs(curve.exact - curve.simplified).max()
+        shares = (f"{100 * s:.2f} %" for s in (curve.compensation, curve.compensation_rms))
+        rows.append([name, f"{exact:.1f}", f"{left:.2f}", *shares])
+    head = ["effect", "exact [m/s]", "deviation [m/s]", "compensated, maximum", "RMS"]
+    return markdown_table(head, rows)
+
+
+def meng2003_sweep() -> str:
+    """Compensation against eccentricity."""
+    found = compensation()
+    rows = []
+    for eccentricity in (0.001, 0.002, 0.0023, 0.003, 0.004, 0.005):
+        values = (
+            float(np.interp(eccentricity, found.eccentricities, each))
+            for each in (found.sweep_deviation, found.sweep, found.sweep_rms)
+        )
+        deviation, largest, rms = values
+        shares = (f"{100 * s:.1f} %" for s in (largest, rms))
+        rows.append([f"{eccentricity:g}", f"{deviation:.2f}", *shares])
+    head = ["eccentricity", "deviation [m/s]", "compensated, maximum", "RMS"]
+    return markdown_table(head, rows)
+
+
+# -- spotlight -----------------------------------------------------------------------------------
+
+HAN2016: dict[str, Any] = tomllib.loads((_PUBLISHED / "han2016.toml").read_text(encoding="utf-8"))
+
+
+@cache
+def han2016(side: str) -> SpotlightResult:
+    """Han's example from the inferred inputs of one side, phase center 2 m off the center."""
+    table = HAN2016["inferred"][side]
+    orbit = KeplerianOrbit.circular(
+        altitude=table["altitude_km"] * 1e3,
+        inclination=math.radians(table["inclination_deg"]),
+        epoch=datetime(2016, 1, 1, tzinfo=UTC),
+        argument_of_latitude=math.radians(table["argument_of_latitude_deg"]),
+        j2=False,
+    )
+    states = orbit.earth_fixed(0.0)
+    plane = zero_doppler_plane(states, side=LookSide[side.upper()])
+    elevation = angle_at_look(plane, math.radians(table["look_deg"]))
+    place = to_geodetic(intersect(states.position, plane.direction(elevation)))
+    request = SpotlightRequest(
+        trajectory=orbit,
+        latitude=float(place.latitude),
+        longitude=float(place.longitude),
+        wavelength=299_792_458.0 / (table["frequency_ghz"] * 1e9),
+        resolution=table["resolution_m"],
+        weighting=table["weighting"],
+        start=-100.0,
+        stop=100.0,
+        off_axis=math.radians(table["off_axis_deg"]),
+        phase_center=(1.2, 0.0, 1.6),
+    )
+    return spotlight(request)
+
+
+def han2016_figures() -> str:
+    """Printed figures of Han 2016 from two sets of inferred inputs."""
+    printed = HAN2016["printed"]
+
+    def row(
+        name: str, key: str, places: int, value: Callable[[SpotlightResult], float]
+    ) -> list[str]:
+        values = (value(han2016(side)) for side in ("left", "right"))
+        return [name, *(f"{number:.{places}f}" for number in (printed[key], *values))]
+
+    def swing(angle: str) -> Callable[[SpotlightResult], float]:
+        return lambda result: math.degrees(float(np.ptp(getattr(result.profile, angle))))
+
+    rows = [
+        row("pitch [°]", "pitch_range_deg", 4, swing("pitch")),
+        row("yaw [°]", "yaw_range_deg", 4, swing("yaw")),
+        row("roll [°]", "roll_range_deg", 4, swing("roll")),
+        row("ground speed [m/s]", "ground_speed_m_s", 0, lambda r: r.plan.ground_speed),
+        row("Doppler bandwidth [Hz]", "doppler_bandwidth_hz", 0, lambda r: r.history.bandwidth),
+        row("resolution [m]", "resolution_m", 1, lambda r: r.history.resolution),
+    ]
+    return markdown_table(["figure", "printed", "inferred, left", "inferred, right"], rows)
+
+
+def han2016_aim() -> str:
+    """Largest aim errors of Han's example, by what the attitude knows of."""
+    names = {
+        "without_both": "neither off-axis angle nor phase center",
+        "without_phase_center": "off-axis angle, no phase center",
+        "iterated": "both, by the iteration",
+        "closed_form": "both, in closed form",
+    }
+    rows = []
+    for name, text in names.items():
+        largest = (float(getattr(han2016(s).aim_error, name).max()) for s in ("left", "right"))
+        texts = (
+            f"{e / 1e3:.0f} km" if e > 1e3 else f"{e:.2f} m" if e > 1e-3 else "below 1e-7 m"
+            for e in largest
+        )
+        rows.append([text, *texts])
+    return markdown_table(["the attitude considers", "left", "right"], rows)
+
+
 TABLES: dict[str, Callable[[], str]] = {
     "sensitivity": sensitivity_example,
     "filtering": filtering,
@@ -767,6 +1120,17 @@ TABLES: dict[str, Callable[[], str]] = {
     "li2009_checks": lambda: check_table(_li2009_checks()),
     "optimum_checks": lambda: check_table(_optimum_checks()),
     "realistic_checks": lambda: check_table(_realistic_checks()),
+    "steering_laws": steering_laws,
+    "zhao2019_verdicts": lambda: verdicts("zhao2019_geosar"),
+    "zhao2019_incidences": zhao2019_incidences,
+    "zhao2019_price": zhao2019_price,
+    "zhao2019_crossovers": zhao2019_crossovers,
+    "meng2003_verdicts": lambda: verdicts("meng2003_yaw"),
+    "meng2003_effects": meng2003_effects,
+    "meng2003_sweep": meng2003_sweep,
+    "mean_elements": mean_elements,
+    "han2016_figures": han2016_figures,
+    "han2016_aim": han2016_aim,
 }
 
 _BLOCK = re.compile(r"(<!-- generated: (\w+) -->\n).*?(<!-- end -->)", re.DOTALL)

@@ -12,10 +12,14 @@ import shlex
 import sys
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from . import __version__
 from .one_place import intruder
 from .output import complain, prepare, say
+
+if TYPE_CHECKING:
+    from configs import LoadedStudy
 
 DONE, WRONG_INPUT, INFEASIBLE, INTERRUPTED = 0, 2, 3, 130
 FORMATS = ("html", "pdf")
@@ -168,42 +172,45 @@ def _schema() -> int:
 
 
 def _run(options: argparse.Namespace) -> int:
-    from configs import StudyError, example_path, load_study
+    from configs import StudyError
 
-    name: str = options.study
-    try:
-        is_file = os.sep in name or "/" in name or name.endswith((".yaml", ".yml"))
-        if not is_file and Path(name).is_file():
-            return _fail(
-                f"{name} is a file, but a name without '/' and .yaml is a shipped example's; "
-                f"write ./{name}"
-            )
-        loaded = load_study(Path(name) if is_file else example_path(name))
-    except StudyError as error:
-        return _fail(str(error))
-    if options.check:
-        if not options.quiet:
-            say(f"{options.study}: a valid study of kind {loaded.study.kind}")
-        return DONE
-    from .execution import OutputError, execute
+    from .execution import OutputError, build, execute
 
-    out = options.out if options.out is not None else Path("out") / loaded.study.name
     try:
+        loaded = _load(options.study)
+        if options.check:
+            build(loaded)
+            if not options.quiet:
+                say(f"{options.study}: a valid study of kind {loaded.study.kind}")
+            return DONE
         outcome = execute(
             loaded,
-            out=out,
+            out=options.out if options.out is not None else Path("out") / loaded.study.name,
             seed=options.seed,
             formats=options.format,
             quiet=options.quiet,
             command=_command(options),
         )
-    except OutputError as error:
+    except (StudyError, OutputError) as error:
         return _fail(str(error))
     if outcome.interrupted:
         return _fail("interrupted; the report holds the best so far", INTERRUPTED)
     if outcome.blocked is not None:
         return _fail(f"no feasible design was found: {outcome.blocked}", INFEASIBLE)
     return DONE
+
+
+def _load(name: str) -> LoadedStudy:
+    """The study that a file or an example holds; a `StudyError` if it holds none."""
+    from configs import StudyError, example_path, load_study
+
+    is_file = os.sep in name or "/" in name or name.endswith((".yaml", ".yml"))
+    if not is_file and Path(name).is_file():
+        raise StudyError(
+            f"{name} is a file, but a name without '/' and .yaml is a shipped example's; "
+            f"write ./{name}"
+        )
+    return load_study(Path(name) if is_file else example_path(name))
 
 
 def _command(options: argparse.Namespace) -> str:

@@ -8,13 +8,14 @@ import time
 from collections.abc import Callable, Collection
 from datetime import UTC, datetime
 from pathlib import Path
+from typing import Any
 
-from configs import LoadedStudy, effective_text
+from configs import BuildError, LoadedStudy, effective_text
 from reports import Provenance, StudyInfo, write_report
 
 from . import provenance, terminal
 from .interrupts import interrupts
-from .kinds import RUNS
+from .kinds import KINDS
 from .runs import Outcome
 
 
@@ -48,16 +49,38 @@ def execute(
 
     Raises
     ------
+    StudyError
+        If the study turns out to make no sense, before anything is written.
     OutputError
         If the folder cannot be written, before anything is computed or when the disk fills up.
     """
+    setup = build(loaded)
     _make_writable(out)
     with interrupts() as should_stop:
-        return _execute(loaded, out, seed, formats, quiet, command, should_stop)
+        return _execute(loaded, setup, out, seed, formats, quiet, command, should_stop)
+
+
+def build(loaded: LoadedStudy) -> Any:
+    """Build what a study is computed with; whatever is wrong with it comes to light here.
+
+    Parameters
+    ----------
+    loaded : the study with its source.
+
+    Raises
+    ------
+    StudyError
+        If it cannot be built: a target that is never seen, an ephemeris that ends too early.
+    """
+    try:
+        return KINDS[loaded.study.kind].build(loaded.study)
+    except BuildError as error:
+        raise loaded.located(error) from None
 
 
 def _execute(
     loaded: LoadedStudy,
+    setup: Any,
     out: Path,
     seed: int | None,
     formats: Collection[str],
@@ -68,7 +91,12 @@ def _execute(
     study = loaded.study
     started, clock = datetime.now(UTC), time.perf_counter()
     with terminal.progress(seed=seed, quiet=quiet, should_stop=should_stop) as options:
-        outcome = RUNS[study.kind](study, options)
+        try:
+            outcome = KINDS[study.kind].run(study, setup, options)
+        except (
+            BuildError
+        ) as error:  # an ephemeris with a gap, found when it is asked for its states
+            raise loaded.located(error) from None
     info = StudyInfo(
         name=study.name,
         kind=study.kind,
@@ -76,8 +104,10 @@ def _execute(
         source_text=loaded.source_text,
         config_sha256=loaded.sha256,
         effective=effective_text(study),
-        orbit_altitude=outcome.orbit.altitude,
-        inclination=outcome.orbit.inclination,
+        orbit_altitude=None if outcome.orbit is None else outcome.orbit.altitude,
+        inclination=None if outcome.orbit is None else outcome.orbit.inclination,
+        observation=outcome.observation,
+        inputs=tuple((file.name, file.sha256) for file in loaded.files),
     )
     how = Provenance(
         version=provenance.program(),
@@ -95,7 +125,7 @@ def _execute(
     except OSError as error:
         raise OutputError(_unwritable(out, error)) from error
     if not quiet:
-        terminal.summary(outcome.shown, paths, seconds=time.perf_counter() - clock)
+        terminal.summary(outcome.summary, paths, seconds=time.perf_counter() - clock)
     return outcome
 
 

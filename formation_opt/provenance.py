@@ -7,7 +7,7 @@ from importlib.metadata import version
 
 from . import __version__
 
-_NUMERIC_PACKAGES = ("numpy", "scipy", "deap")
+_NUMERIC_PACKAGES = ("numpy", "scipy", "deap", "sgp4", "pyerfa", "astropy-iers-data", "shapely")
 
 
 def packages() -> dict[str, str]:

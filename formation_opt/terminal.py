@@ -12,10 +12,11 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeElapsedColumn
 from rich.table import Table
 
-from optimize import Assessment, GenerationRecord
+from optimize import GenerationRecord
 
 from .output import say
-from .runs import Options
+from .runs import Options, Summary
+from .runs.formation_summary import meters
 
 
 @contextmanager
@@ -49,7 +50,7 @@ def progress(
             bar.update(task, total=generations + 2)  # the first one, and the refinement
 
         def advance(record: GenerationRecord) -> None:
-            best = f"best {_meters(record.best)}" if np.isfinite(record.best) else "none feasible"
+            best = f"best {meters(record.best)}" if np.isfinite(record.best) else "none feasible"
             bar.update(task, advance=1, best=best)
             if bar.tasks[task].remaining == 1:
                 bar.update(task, description="refining")
@@ -57,47 +58,24 @@ def progress(
         yield Options(seed=seed, on_start=start, on_generation=advance, should_stop=should_stop)
 
 
-def summary(shown: Sequence[Assessment], paths: Sequence[Path], *, seconds: float) -> None:
+def summary(table: Summary, paths: Sequence[Path], *, seconds: float) -> None:
     """Print the compact table and the paths.
 
     Parameters
     ----------
-    shown : the formations, a column each.
+    table : what the run found.
     paths : the files written.
     seconds : duration of the run.
     """
-    table = Table(box=None, pad_edge=False, header_style="bold")
-    table.add_column("")
-    for assessment in shown:
-        table.add_column(assessment.label, justify="right")
-    rows = [
-        ("height error, total (RMS)", [_meters(float(a.height_error.region)) for a in shown]),
-        ("height error, relative", [_meters(float(a.height_error.relative_region)) for a in shown]),
-    ]
-    if all(a.unwrapping is not None for a in shown):
-        rows.append(
-            (
-                "unwrapping probability",
-                [f"{a.unwrapping.probability.min():.4f}" for a in shown if a.unwrapping],
-            )
-        )
-    rows.append(("limits", [_limits(a) for a in shown]))
-    for label, values in rows:
-        table.add_row(label, *values)
+    drawn = Table(box=None, pad_edge=False, header_style="bold")
+    drawn.add_column("")
+    for heading in table.headings:
+        drawn.add_column(heading, justify="right")
+    for label, values in table.rows:
+        drawn.add_row(label, *values)
     console = Console(file=io.StringIO(), width=100, color_system=None)
-    with console.capture() as drawn:
-        console.print(table)
+    with console.capture() as captured:
+        console.print(drawn)
     folder = paths[0].parent
     names = ", ".join(path.name for path in paths)
-    say(f"{drawn.get()}\n{folder}: {names}  ({seconds:.1f} s)")
-
-
-def _meters(value: float) -> str:
-    return f"{value:.3f} m" if np.isfinite(value) else "none"
-
-
-def _limits(assessment: Assessment) -> str:
-    broken = sum(not report.satisfied for report in assessment.constraints)
-    if broken:
-        return f"{broken} of {len(assessment.constraints)} broken"
-    return "all kept" if assessment.constraints else "none set"
+    say(f"{captured.get()}\n{folder}: {names}  ({seconds:.1f} s)")

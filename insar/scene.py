@@ -13,6 +13,13 @@ from .geometry import line_of_sight, local_vertical
 
 Array = NDArray[np.float64]
 
+DEFLECTION = np.deg2rad(0.2)
+"""Largest angle between the ellipsoid's normal and the direction from the Earth's center [rad].
+
+The look angle is from the geocentric nadir, the incidence from the normal: on the ellipsoid, and
+near nadir, an incidence may be smaller than its look angle by this.
+"""
+
 
 class LookSide(IntEnum):
     """Side of the flight direction that the radar looks to; the value is the sign of û·N."""
@@ -32,7 +39,8 @@ class Scene:
     look_angle : (S,) — angle of the line of sight from nadir (−R) [rad].
     azimuth : (S,) — angle of the line of sight about nadir, from T (0) towards N (π/2): targets
         with azimuth in (0, π) are on the left of the flight direction [rad].
-    incidence : (S,) — angle between the line of sight and the vertical at the target [rad].
+    incidence : (S,) — angle between the line of sight and the vertical at the target [rad]; not
+        below the look angle, but for the deflection of the ellipsoid's normal.
     velocity_direction : (S, 3) or (3,) — direction of the satellite's Earth-fixed velocity, RTN,
         normalized here; along-track when not given.
     slope : (S,) or scalar — terrain slope in the range direction, positive towards the radar [rad].
@@ -68,7 +76,7 @@ class Scene:
             "rad must lie between 0 and π/2, from nadir",
         )
         self._check(
-            (self.incidence >= self.look_angle - 1e-9) & (self.incidence < np.pi / 2),
+            (self.incidence >= self.look_angle - DEFLECTION) & (self.incidence < np.pi / 2),
             "incidence",
             "rad must lie between the look angle (flat Earth) and π/2",
         )

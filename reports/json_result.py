@@ -3,21 +3,18 @@
 from __future__ import annotations
 
 import json
-import math
-from collections.abc import Iterable
 from importlib import resources
-from typing import Any
 
 import numpy as np
 
 from optimize import Assessment, EvaluateResult, ImagePair, OptimizeResult, Problem
 
+from .json_numbers import Json, finite, finite_list
+from .json_observation import observation_json
 from .reading import image_name, pair_satellites, unmeasured_reason
 from .study import Provenance, StudyInfo
 
 SCHEMA_VERSION = 1
-
-Json = dict[str, Any]
 
 
 def result_schema() -> Json:
@@ -48,6 +45,7 @@ def result_json(body: Json, *, study: StudyInfo, provenance: Provenance) -> byte
             "kind": study.kind,
             "description": study.description,
             "config_sha256": study.config_sha256,
+            "inputs": [{"file": name, "sha256": digest} for name, digest in study.inputs],
         },
         "provenance": {
             "version": provenance.version,
@@ -60,10 +58,18 @@ def result_json(body: Json, *, study: StudyInfo, provenance: Provenance) -> byte
             "evaluations": provenance.evaluations,
             "command": provenance.command,
         },
+        **_observed(study),
         **body,
     }
     text = json.dumps(document, ensure_ascii=False, indent=2, allow_nan=False)
     return f"{text}\n".encode()
+
+
+def _observed(study: StudyInfo) -> Json:
+    """Block of the observation, where the scene comes from one."""
+    if study.observation is None:
+        return {}
+    return {"observation": observation_json(study.observation)}
 
 
 def optimize_json(result: OptimizeResult) -> Json:
@@ -121,16 +127,16 @@ def assessment_json(problem: Problem, assessment: Assessment) -> Json:
                 "name": name,
                 "z0_m": finite(state[0]),
                 "zdot0_m_s": finite(state[3]),
-                "position_rtn_m": _list(state[:3]),
-                "velocity_rtn_m_s": _list(state[3:]),
+                "position_rtn_m": finite_list(state[:3]),
+                "velocity_rtn_m_s": finite_list(state[3:]),
             }
             for name, state in zip(assessment.names, assessment.states, strict=True)
         ],
         "height_error": {
             "region_rms_m": finite(error.region),
             "relative_rms_m": finite(error.relative_region),
-            "segments_m": _list(error.total),
-            "relative_segments_m": _list(error.relative),
+            "segments_m": finite_list(error.total),
+            "relative_segments_m": finite_list(error.relative),
             "terms_m": {name: finite(term) for name, term in error.region_terms.items()},
             "reason": unmeasured_reason(assessment),
         },
@@ -139,7 +145,7 @@ def assessment_json(problem: Problem, assessment: Assessment) -> Json:
         else {
             "probability": finite(unwrapping.probability.min()),
             "prior_height_std_m": finite(unwrapping.prior_height_std),
-            "segments": _list(unwrapping.probability),
+            "segments": finite_list(unwrapping.probability),
             "worst_segment": unwrapping.worst_segment + 1,
             "rungs": [
                 {
@@ -182,12 +188,12 @@ def _pair_json(problem: Problem, names: tuple[str, ...], pair: ImagePair) -> Jso
     return {
         "images": _images(problem, names, pair.images),
         "satellites": [names[index] for index in pair_satellites(problem, pair.images)],
-        "perpendicular_baseline_m": _list(pair.perpendicular_baseline),
-        "azimuth_baseline_m": _list(pair.azimuth_baseline),
-        "baseline_over_critical": _list(pair.baseline_over_critical),
-        "height_of_ambiguity_m": _list(pair.height_of_ambiguity),
-        "coherence": _list(pair.coherence),
-        "looks": _list(pair.looks),
+        "perpendicular_baseline_m": finite_list(pair.perpendicular_baseline),
+        "azimuth_baseline_m": finite_list(pair.azimuth_baseline),
+        "baseline_over_critical": finite_list(pair.baseline_over_critical),
+        "height_of_ambiguity_m": finite_list(pair.height_of_ambiguity),
+        "coherence": finite_list(pair.coherence),
+        "looks": finite_list(pair.looks),
         "reason": "the perpendicular baseline is zero where the height of ambiguity is null"
         if zero
         else None,
@@ -196,13 +202,3 @@ def _pair_json(problem: Problem, names: tuple[str, ...], pair: ImagePair) -> Jso
 
 def _images(problem: Problem, names: tuple[str, ...], images: tuple[int, int]) -> list[str]:
     return [image_name(problem, names, image) for image in images]
-
-
-def finite(value: Any) -> float | None:
-    """Number as JSON has it: None where it is not finite."""
-    number = float(value)
-    return number if math.isfinite(number) else None
-
-
-def _list(values: Iterable[Any]) -> list[float | None]:
-    return [finite(value) for value in values]

@@ -4,6 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:  # a report of a study without one does not pay for its import
+    from insar.observe import Observation
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -18,8 +22,11 @@ class StudyInfo:
     source_text : the study file as run (YAML).
     config_sha256 : digest of that file.
     effective : the study as validated, with every default filled in (YAML); None to leave it out.
-    orbit_altitude : scalar — height of the reference orbit above the equatorial radius [m].
-    inclination : scalar — of the reference orbit [rad].
+    orbit_altitude : scalar — height of the reference orbit above the equatorial radius [m]; None
+        where the study has several orbits, or none.
+    inclination : scalar — of the reference orbit [rad]; None likewise.
+    observation : where the scene comes from; None if the study gives it.
+    inputs : the files that the study reads, each with its SHA-256.
     """
 
     name: str
@@ -28,8 +35,10 @@ class StudyInfo:
     source_text: str
     config_sha256: str
     effective: str | None = None
-    orbit_altitude: float
-    inclination: float
+    orbit_altitude: float | None = None
+    inclination: float | None = None
+    observation: Observation | None = None
+    inputs: tuple[tuple[str, str], ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True)

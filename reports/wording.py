@@ -174,3 +174,65 @@ def counted(count: int, noun: str) -> str:
     ('1 segment', '10 segments')
     """
     return f"{count} {noun}{'' if count == 1 else 's'}"
+
+
+def latitude_text(degrees: float, decimals: int = 2) -> str:
+    """Latitude with its hemisphere.
+
+    >>> latitude_text(37.751), latitude_text(-0.5, 1), latitude_text(0.0, 0)
+    ('37.75° N', '0.5° S', '0°')
+    """
+    return _hemisphere(degrees, decimals, "NS")
+
+
+def longitude_text(degrees: float, decimals: int = 2) -> str:
+    """Longitude within half a turn, with its hemisphere.
+
+    >>> longitude_text(15.0), longitude_text(181.5, 1), longitude_text(-540.0, 0)
+    ('15.00° E', '178.5° W', '180°')
+    """
+    return _hemisphere((degrees + 180.0) % 360.0 - 180.0, decimals, "EW")
+
+
+def _hemisphere(degrees: float, decimals: int, names: str) -> str:
+    number = f"{abs(degrees):.{decimals}f}"
+    if float(number) in (0.0, 180.0):
+        return f"{float(number):.0f}°"
+    return f"{number}° {names[0] if degrees > 0.0 else names[1]}"
+
+
+def power_of_ten(value: float) -> str:
+    """Label of a logarithmic axis.
+
+    >>> power_of_ten(1e-9), power_of_ten(1.0), power_of_ten(1e4)
+    ('10⁻⁹', '1', '10⁴')
+    """
+    exponent = round(math.log10(value))
+    return "1" if exponent == 0 else f"10{str(exponent).translate(_SUPERSCRIPTS)}"
+
+
+def frequency(value: float, digits: int = 3) -> str:
+    r"""Frequency with a given count of significant digits and its unit.
+
+    >>> frequency(370.66), frequency(2.5e-10)
+    ('371\xa0Hz', '2.50 × 10⁻¹⁰\xa0Hz')
+    """
+    return quantity(significant(value, digits), "Hz") if math.isfinite(value) else MISSING
+
+
+def or_zero(value: float, least: float) -> str:
+    """Number with three digits; 0 for one that is smaller than what counts.
+
+    >>> or_zero(3e-12, 1e-6), or_zero(0.25, 1e-6)
+    ('0', '0.250')
+    """
+    return "0" if abs(value) < least else significant(value)
+
+
+def once(names: Sequence[str]) -> list[str]:
+    """Names, of which one that repeats the one above is left out.
+
+    >>> once(["LEO", "LEO", "GEO"])
+    ['LEO', '', 'GEO']
+    """
+    return ["" if index and names[index - 1] == name else name for index, name in enumerate(names)]

@@ -12,6 +12,9 @@ from .study import Provenance, StudyInfo
 FORMATS = ("html", "pdf")
 """Formats that can be asked for; JSON and CSV are always written."""
 
+_SOMETIMES = ("segments.csv", "selection.csv", "compensation.csv", "claims.csv")
+"""Tables that a study of the same kind may have, or not."""
+
 
 def write_report(
     result: object,
@@ -34,7 +37,7 @@ def write_report(
     Returns
     -------
     Paths of the files written. Each is complete or absent, never half written; a report of an
-    earlier run in a format that is not asked for is removed.
+    earlier run in a format that is not asked for, or a table that this one has not, is removed.
 
     Raises
     ------
@@ -49,7 +52,8 @@ def write_report(
     # All is rendered before anything is replaced: results and reports of two runs never mix.
     files = list(_files(result, study, provenance, formats))
     out.mkdir(parents=True, exist_ok=True)
-    for stale in {f"report.{name}" for name in FORMATS} - {name for name, _ in files}:
+    optional = {f"report.{name}" for name in FORMATS}.union(_SOMETIMES)
+    for stale in optional - {name for name, _ in files}:
         (out / stale).unlink(missing_ok=True)
     for name, content in files:
         _replace(out / name, content)
@@ -64,10 +68,11 @@ def _files(
     from .json_result import result_json
     from .pages import page_of
     from .tables import csv_bytes
+    from .tables_observation import observation_tables
 
     page = page_of(result)
     yield "result.json", result_json(page.json(result), study=study, provenance=provenance)
-    for name, frame in page.csv(result).items():
+    for name, frame in {**page.csv(result), **observation_tables(study.observation)}.items():
         yield name, csv_bytes(frame)
     if not formats:
         return

@@ -306,7 +306,11 @@ def test_the_shipped_examples_are_these():
         "four_sat",
         "li2009_ground_track",
         "li2009_space",
+        "meng2003_yaw",
+        "terrasar_x",
         "three_sat",
+        "three_sat_real",
+        "zhao2019_geosar",
     )
 
 

@@ -20,7 +20,16 @@ from formation_opt import __version__
 ROOT = Path(__file__).parent.parent
 PAGES = [ROOT / "README.md", ROOT / "CHANGELOG.md", *sorted((ROOT / "docs").glob("*.md"))]
 EXAMPLES = sorted((ROOT / "examples").glob("*.py"))
-GENERATED = ["error_model.md", "li2009.md", "validation.md"]
+GENERATED = [
+    "error_model.md",
+    "han2016.md",
+    "li2009.md",
+    "meng2003.md",
+    "orbits.md",
+    "steering.md",
+    "validation.md",
+    "zhao2019.md",
+]
 
 
 # -- generated tables ----------------------------------------------------------------------------

@@ -1,5 +1,5 @@
 """One module for each kind of study: from the validated study to its result."""
 
-from .outcome import Options, Outcome
+from .outcome import Options, Outcome, Summary
 
-__all__ = ["Options", "Outcome"]
+__all__ = ["Options", "Outcome", "Summary"]

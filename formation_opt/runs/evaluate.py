@@ -3,21 +3,22 @@
 from __future__ import annotations
 
 from configs import EvaluateStudy
-from configs.build import build_evaluate
+from configs.build import EvaluateSetup
 from optimize import EvaluateResult, assess, findings
 
+from .formation_summary import formation_summary
 from .outcome import Options, Outcome
 
 
-def run(study: EvaluateStudy, options: Options) -> Outcome:
+def run(study: EvaluateStudy, setup: EvaluateSetup, options: Options) -> Outcome:
     """Assess the formation of a study.
 
     Parameters
     ----------
     study : the validated study.
+    setup : what it is computed with.
     options : of the command line; nothing here is random.
     """
-    setup = build_evaluate(study)
     formation = assess(setup.problem, setup.states, label="formation", names=setup.names)
     compare = tuple(
         assess(setup.problem, states, label=label, names=names)
@@ -32,8 +33,8 @@ def run(study: EvaluateStudy, options: Options) -> Outcome:
     )
     return Outcome(
         result=result,
-        orbit=setup.orbit,
-        seed=None,
+        summary=formation_summary((*compare, formation)),
         evaluations=1 + len(compare),
-        shown=(*compare, formation),
+        orbit=setup.orbit,
+        observation=setup.observation,
     )

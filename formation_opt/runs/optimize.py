@@ -5,21 +5,22 @@ from __future__ import annotations
 import numpy as np
 
 from configs import OptimizeStudy
-from configs.build import build_optimize
+from configs.build import OptimizeSetup
 from optimize import Assessment, OptimizeResult, assess, findings, search
 
+from .formation_summary import formation_summary
 from .outcome import Options, Outcome
 
 
-def run(study: OptimizeStudy, options: Options) -> Outcome:
+def run(study: OptimizeStudy, setup: OptimizeSetup, options: Options) -> Outcome:
     """Search for the best formation of a study.
 
     Parameters
     ----------
     study : the validated study.
+    setup : what it is computed with.
     options : of the command line.
     """
-    setup = build_optimize(study)
     seed = study.search.seed if options.seed is None else options.seed
     options.on_start(setup.settings.genetic.generations)
     found = search(
@@ -58,10 +59,11 @@ def run(study: OptimizeStudy, options: Options) -> Outcome:
     )
     return Outcome(
         result=result,
-        orbit=setup.orbit,
-        seed=seed,
+        summary=formation_summary((initial, best)),
         evaluations=found.evaluations,
-        shown=(initial, best),
+        seed=seed,
+        orbit=setup.orbit,
+        observation=setup.observation,
         blocked=blocked,
         interrupted=found.interrupted,
     )

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from formation import Orbit
-from optimize import Assessment, GenerationRecord
+from insar.observe import Observation
+from optimize import GenerationRecord
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -28,24 +29,40 @@ class Options:
     should_stop: Callable[[], bool] = lambda: False
 
 
-class Outcome(NamedTuple):
+class Summary(NamedTuple):
+    """The compact table that the terminal shows.
+
+    Attributes
+    ----------
+    headings : of the columns, the one that matters last.
+    rows : a label, and a value for each column.
+    """
+
+    headings: tuple[str, ...]
+    rows: tuple[tuple[str, tuple[str, ...]], ...]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Outcome:
     """What a run found.
 
     Attributes
     ----------
     result : for `reports.write_report`.
-    orbit : the reference orbit.
+    summary : for the terminal.
+    evaluations : formations scored; 0 where none are.
     seed : that was used; None where nothing is random.
-    evaluations : formations scored.
-    shown : the formations that the terminal shows, the one that matters last.
+    orbit : the reference orbit; None where the study has several, or none.
+    observation : where the scene comes from; None if it was given.
     blocked : None, or what keeps every design from being feasible, in words.
     interrupted : whether the run was stopped before its end.
     """
 
     result: object
-    orbit: Orbit
-    seed: int | None
-    evaluations: int
-    shown: tuple[Assessment, ...]
+    summary: Summary
+    evaluations: int = 0
+    seed: int | None = None
+    orbit: Orbit | None = None
+    observation: Observation | None = None
     blocked: str | None = None
     interrupted: bool = False

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -25,6 +26,19 @@ def scene_axis(scene: Scene) -> tuple[Array, str]:
     if len(scene) > 1 and bool(np.all(np.diff(scene.times) > 0.0)):
         return scene.times, "time since the epoch of the states [s]"
     return np.arange(1.0, len(scene) + 1.0), _SEGMENT
+
+
+def series_line(style: int, scene: Scene) -> dict[str, Any]:
+    """Line and marker of a series over the scene.
+
+    Segments of an area lie beside one another, near and far by turns: a line through them in the
+    order of time would show a course that there is not, so they are marked one by one.
+    """
+    look = scene.look_angle
+    turns = np.count_nonzero(np.diff(np.sign(np.diff(look))))
+    if 3 * turns > len(scene):
+        return {"linestyle": "", "marker": series_marker(style, len(scene)) or "."}
+    return {"linestyle": "-", "marker": series_marker(style, len(scene))}
 
 
 def height_error_figure(formations: Sequence[Shown], scene: Scene) -> bytes:
@@ -57,7 +71,7 @@ def _paint_panel(
         shown = np.where(np.isfinite(values), values, np.nan)
         if np.isfinite(region):
             axes.axhline(float(region), color=color(style), linestyle=(0, (5, 3)), linewidth=0.8)
-        axes.plot(abscissa, shown, color=color(style), marker=series_marker(style, len(scene)))
+        axes.plot(abscissa, shown, color=color(style), **series_line(style, scene))
     mark_abscissa(axes, abscissa, label)
     axes.set_ylabel("height error [m]")
     error_axis(axes, [values for values, _ in series])

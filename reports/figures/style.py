@@ -69,6 +69,7 @@ _RC: Any = {
     "svg.fonttype": "path",
     "svg.hashsalt": "formation-opt",  # the same figure has the same bytes
     "axes.unicode_minus": True,
+    "axes.formatter.useoffset": False,  # each label is the number itself
 }
 
 

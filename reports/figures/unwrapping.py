@@ -15,7 +15,7 @@ from optimize import Unwrapping
 
 from ..reading import Shown
 from ..wording import probability
-from .height_error import mark_abscissa, scene_axis
+from .height_error import mark_abscissa, scene_axis, series_line
 from .style import (
     BROKEN,
     INK,
@@ -24,7 +24,6 @@ from .style import (
     legend_rows,
     name_formations,
     plain_log_ticks,
-    series_marker,
     shortened,
 )
 
@@ -78,7 +77,7 @@ def _paint_failure(
 ) -> None:
     abscissa, label = scene_axis(scene)
     for style, failure in failures:
-        axes.plot(abscissa, failure, color=color(style), marker=series_marker(style, len(scene)))
+        axes.plot(abscissa, failure, color=color(style), **series_line(style, scene))
     values = np.concatenate([failure for _, failure in failures])
     if required is not None:
         values = np.append(values, 1.0 - required)

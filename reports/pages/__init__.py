@@ -7,11 +7,12 @@ from typing import Any, NamedTuple
 
 import pandas as pd
 
+from insar.observe import SteeringResult
 from optimize import EvaluateResult, OptimizeResult
 
 from ..document import Document
 from ..study import Provenance, StudyInfo
-from . import evaluate, optimize
+from . import evaluate, optimize, steering
 
 
 class Page(NamedTuple):
@@ -32,6 +33,7 @@ class Page(NamedTuple):
 _PAGES: dict[type, Page] = {
     OptimizeResult: Page(optimize.document, optimize.json, optimize.csv),
     EvaluateResult: Page(evaluate.document, evaluate.json, evaluate.csv),
+    SteeringResult: Page(steering.document, steering.json, steering.csv),
 }
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 import pandas as pd
@@ -17,14 +18,17 @@ from ..wording import counted, fixed, meters, plain, quantity, source_name
 
 
 def closing_sections(
-    problem: Problem, critical_baseline: float, study: StudyInfo, provenance: Provenance
+    setting: Table, study: StudyInfo, provenance: Provenance
 ) -> tuple[Section, ...]:
-    """The study and its provenance."""
-    setting = _setting(problem, critical_baseline, study)
-    blocks: list[Block] = [
-        _facts(setting, "The setting: orbit, radar, scene and errors."),
-        CodeListing(study.source_text, "The study file as run."),
-    ]
+    """The study and its provenance.
+
+    Parameters
+    ----------
+    setting : what was computed, of `formation_setting` or a page's own.
+    study : the study that was run.
+    provenance : how it was run.
+    """
+    blocks: list[Block] = [setting, CodeListing(study.source_text, "The study file as run.")]
     if study.effective is not None:
         blocks.append(
             CodeListing(study.effective, "The study as validated, with every default filled in.")
@@ -32,13 +36,20 @@ def closing_sections(
     caption = "Provenance. The same study, seed and version give the same result."
     return (
         Section("study", "The study as run", tuple(blocks)),
-        Section("provenance", "Provenance", (_facts(_origin(study, provenance), caption),)),
+        Section("provenance", "Provenance", (facts(_origin(study, provenance), caption),)),
     )
 
 
-def _facts(rows: list[tuple[str, str]], caption: str) -> Table:
+def facts(rows: Sequence[tuple[str, str]], caption: str) -> Table:
+    """Table of things and their values."""
     frame = pd.DataFrame(rows, columns=["what", "value"])
     return Table(frame, (Column("what", "Item"), Column("value", "Value")), caption)
+
+
+def formation_setting(problem: Problem, critical_baseline: float, study: StudyInfo) -> Table:
+    """The setting of a formation study."""
+    setting = _setting(problem, critical_baseline, study)
+    return facts(setting, "The setting: orbit, radar, scene and errors.")
 
 
 def _setting(problem: Problem, critical_baseline: float, study: StudyInfo) -> list[tuple[str, str]]:
@@ -47,8 +58,7 @@ def _setting(problem: Problem, critical_baseline: float, study: StudyInfo) -> li
     sloping = bool(np.any(scene.slope != 0.0))
     transmitters = len({transmitter for transmitter, _ in radar.images})
     return [
-        ("orbit altitude", f"{fixed(study.orbit_altitude / 1e3, 1)} km"),
-        ("inclination", f"{fixed(math.degrees(study.inclination), 2)}°"),
+        *_orbit(study),
         ("wavelength", f"{plain(radar.wavelength * 1e2)} cm"),
         ("slant-range resolution", f"{plain(radar.slant_range_resolution)} m"),
         ("signal-to-noise ratio", f"{fixed(10.0 * math.log10(radar.snr), 1)} dB"),
@@ -80,6 +90,17 @@ def _setting(problem: Problem, critical_baseline: float, study: StudyInfo) -> li
         ("baseline decorrelation", str(errors.baseline_decorrelation)),
         ("held constant while the height changes", str(errors.held_constant)),
     ]
+
+
+def _orbit(study: StudyInfo) -> list[tuple[str, str]]:
+    rows = []
+    if study.orbit_altitude is not None:
+        rows.append(("orbit altitude", f"{fixed(study.orbit_altitude / 1e3, 1)} km"))
+    if study.inclination is not None:
+        rows.append(("inclination", f"{fixed(math.degrees(study.inclination), 2)}°"))
+    if study.observation is not None:
+        rows.append(("scene from", "a pass of a real orbit: see Where the geometry lies"))
+    return rows
 
 
 def _times(times: NDArray[np.float64]) -> str:
@@ -121,7 +142,8 @@ def _origin(study: StudyInfo, provenance: Provenance) -> list[tuple[str, str]]:
         ("command", provenance.command),
         ("seed", "none" if provenance.seed is None else str(provenance.seed)),
         ("study file, SHA-256", study.config_sha256),
-        ("formations scored", str(provenance.evaluations)),
+        *((f"{name}, SHA-256", digest) for name, digest in study.inputs),
+        *([("formations scored", str(provenance.evaluations))] if provenance.evaluations else []),
         ("started", provenance.started),
         ("duration", f"{provenance.wall_s:.1f} s"),
         ("Python", provenance.python),

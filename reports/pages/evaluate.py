@@ -14,9 +14,10 @@ from ..reading import Shown
 from ..study import Provenance, StudyInfo
 from ..tables import formation_frame, height_error_frame
 from . import sections
-from .closing import closing_sections
+from .closing import closing_sections, formation_setting
 from .interferometry import pairs_section, unwrapping_section
 from .methods import methods_section
+from .observation import observation_section
 from .verdict import evaluate_verdict
 
 
@@ -32,6 +33,7 @@ def document(result: EvaluateResult, study: StudyInfo, provenance: Provenance) -
             "Result",
             (*evaluate_verdict(result), *sections.warning_blocks(result.warnings)),
         ),
+        observation_section(study.observation),
         sections.formation_section(problem, [formation]),
         sections.height_error_section(problem, [formation, *others]),
         pairs_section(problem, result.critical_baseline, [result.formation]),
@@ -39,8 +41,10 @@ def document(result: EvaluateResult, study: StudyInfo, provenance: Provenance) -
         sections.attribution_section([formation]),
         sections.constraints_section([result.formation]),
         sections.comparison_section(result.formation, result.compare),
-        methods_section(problem, search=None),
-        *closing_sections(problem, result.critical_baseline, study, provenance),
+        methods_section(problem, search=None, observation=study.observation),
+        *closing_sections(
+            formation_setting(problem, result.critical_baseline, study), study, provenance
+        ),
     )
 
 

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from insar import BaselineDecorrelation, HeldConstant, Weighting
+from insar.observe import Observation
 from optimize import Problem, SearchResult
 
 from ..document import Block, Equation, Paragraph, Reference, References, Section, Strong, Symbol
+from .citations import Citations
 
 _CLOHESSY = Reference(
     "W. H. Clohessy and R. S. Wiltshire, “Terminal guidance system for satellite rendezvous,” "
@@ -66,31 +68,24 @@ _BOOTSTRAP = Equation(
 )
 
 
-class _Citations:
-    """Numbers the works in the order in which they are cited."""
-
-    def __init__(self) -> None:
-        self.works: list[Reference] = []
-
-    def __call__(self, *works: Reference) -> str:
-        self.works += [work for work in works if work not in self.works]
-        return ", ".join(f"[{self.works.index(work) + 1}]" for work in works)
-
-
-def methods_section(problem: Problem, *, search: SearchResult | None) -> Section:
+def methods_section(
+    problem: Problem, *, search: SearchResult | None, observation: Observation | None = None
+) -> Section:
     """Methods and references.
 
     Parameters
     ----------
     problem : whose model and limits decide what was used.
     search : the search; None where nothing was searched.
+    observation : where the scene comes from; None if the study gives it.
     """
-    cite = _Citations()
+    cite = Citations()
     blocks: list[Block] = [
         Paragraph(
             f"The satellites move as the Clohessy-Wiltshire equations say {cite(_CLOHESSY)}: "
             "linear motion about a circular reference orbit, without perturbations."
         ),
+        *_geometry(observation),
         *_sensitivity(problem),
         *_height(problem, cite),
         Paragraph(
@@ -127,6 +122,22 @@ def methods_section(problem: Problem, *, search: SearchResult | None) -> Section
             )
         )
     return Section("methods", "How it was computed", (*blocks, References(tuple(cite.works))))
+
+
+def _geometry(observation: Observation | None) -> tuple[Block, ...]:
+    """How the scene follows from an orbit."""
+    if observation is None:
+        return ()
+    return (
+        Paragraph(
+            "The scene follows from the orbit's Earth-fixed states. A segment is seen when the "
+            "line of sight to it is at right angles to the antenna's azimuth axis; slant range, "
+            "look angle from the geocentric nadir and azimuth are those of that moment in the "
+            "radial, along-track and normal axes of the orbit, the incidence is the angle to the "
+            "normal of the WGS84 ellipsoid, and the Doppler at which the height sensitivity is "
+            "taken is that of the Earth-fixed velocity."
+        ),
+    )
 
 
 def _sensitivity(problem: Problem) -> tuple[Block, ...]:
@@ -173,7 +184,7 @@ _DECORRELATION: dict[BaselineDecorrelation, tuple[str, tuple[Reference, ...]]] =
 }
 
 
-def _height(problem: Problem, cite: _Citations) -> tuple[Block, ...]:
+def _height(problem: Problem, cite: Citations) -> tuple[Block, ...]:
     errors = problem.errors
     if errors.weighting is Weighting.JOINT:
         weighting = "is the joint Fisher information of the image phases"

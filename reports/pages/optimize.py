@@ -17,9 +17,10 @@ from ..study import Provenance, StudyInfo
 from ..tables import formation_frame, height_error_frame
 from ..wording import counted, meters
 from . import sections
-from .closing import closing_sections
+from .closing import closing_sections, formation_setting
 from .interferometry import pairs_section, unwrapping_section
 from .methods import methods_section
+from .observation import observation_section
 from .verdict import optimize_verdict
 
 _INITIAL_STYLE, _BEST_STYLE = 7, 0
@@ -38,6 +39,7 @@ def document(result: OptimizeResult, study: StudyInfo, provenance: Provenance) -
             "Result",
             (*optimize_verdict(result), *sections.warning_blocks(result.warnings)),
         ),
+        observation_section(study.observation),
         sections.formation_section(problem, [best, initial]),
         sections.height_error_section(problem, [initial, best, *others]),
         _convergence_section(result),
@@ -46,8 +48,10 @@ def document(result: OptimizeResult, study: StudyInfo, provenance: Provenance) -
         sections.attribution_section([initial, best]),
         sections.constraints_section([result.best, result.initial]),
         sections.comparison_section(result.best, result.compare),
-        methods_section(problem, search=result.search),
-        *closing_sections(problem, result.critical_baseline, study, provenance),
+        methods_section(problem, search=result.search, observation=study.observation),
+        *closing_sections(
+            formation_setting(problem, result.critical_baseline, study), study, provenance
+        ),
     )
 
 

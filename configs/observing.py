@@ -1,0 +1,250 @@
+"""Builds where a formation is and what it sees: the reference orbit, and the scene."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from datetime import datetime
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from formation import Orbit, States, Trajectory
+from formation.constants import EARTH_EQUATORIAL_RADIUS
+from formation.timescales import seconds_between
+from insar import LookSide, Scene
+from insar.observe import Boresight, FixedIncidence, FixedLook, Law, Observation, Reference
+from insar.observe.observe import observe, observe_arc
+from insar.observe.passes import Direction
+from insar.observe.targets import Targets
+
+from .base import utc
+from .messages import BuildError, KeyPath
+from .observation import ObservationBlock, SideName
+from .orbits import OrbitBlock, build_trajectory
+from .scenes import StripBlock, TableBlock
+from .studies import FormationStudy
+
+SIDES: dict[SideName, LookSide] = {"left": LookSide.LEFT, "right": LookSide.RIGHT}
+
+_DAY = 86_400.0
+_AT: KeyPath = ("scene", "observation")
+
+
+class View(NamedTuple):
+    """Where a formation is and what it sees.
+
+    Attributes
+    ----------
+    scene : the segments.
+    orbit : the circular reference orbit.
+    observation : where the scene comes from; None if the study gives it.
+    """
+
+    scene: Scene
+    orbit: Orbit
+    observation: Observation | None
+
+
+@dataclass(frozen=True)
+class PlacedTrajectory:
+    """A trajectory of a study, which blames its place in the study for what it does not know.
+
+    Parameters
+    ----------
+    trajectory : the orbit.
+    at : its place in the study.
+    """
+
+    trajectory: Trajectory
+    at: KeyPath
+
+    @property
+    def epoch(self) -> datetime:
+        """Time zero (UTC)."""
+        return self.trajectory.epoch
+
+    @property
+    def span(self) -> tuple[float, float]:
+        """First and last time at which the states are known [s]."""
+        return self.trajectory.span
+
+    @property
+    def start(self) -> float:
+        """Time zero, or the first time known after it [s]."""
+        return max(0.0, self.trajectory.span[0])
+
+    @property
+    def perturbed(self) -> bool:
+        """Whether the states contain the periodic terms of J2."""
+        return self.trajectory.perturbed
+
+    def inertial(self, times: ArrayLike) -> States:
+        """States in the GCRS; a time that is not known raises a BuildError."""
+        try:
+            return self.trajectory.inertial(times)
+        except ValueError as error:
+            raise _refused(self.at, error) from None
+
+    def earth_fixed(self, times: ArrayLike) -> States:
+        """States in the ITRS; a time that is not known raises a BuildError."""
+        try:
+            return self.trajectory.earth_fixed(times)
+        except ValueError as error:
+            raise _refused(self.at, error) from None
+
+
+def placed_trajectory(block: OrbitBlock, at: KeyPath) -> PlacedTrajectory:
+    """Build the orbit on the real Earth.
+
+    Parameters
+    ----------
+    block : the orbit.
+    at : its place in the study.
+    """
+    return PlacedTrajectory(build_trajectory(block), (*at, *block.blamed))
+
+
+def build_view(study: FormationStudy) -> View:
+    """Build the reference orbit and the scene of a study.
+
+    Parameters
+    ----------
+    study : the study.
+
+    Raises
+    ------
+    BuildError
+        If the targets are never seen, or their file or the orbit's does not serve.
+    """
+    given, orbit = study.scene.given, study.reference_orbit
+    if isinstance(given, TableBlock):
+        return View(_table(given), orbit, None)
+    if isinstance(given, StripBlock):
+        return View(_strip(given, orbit), orbit, None)
+    observation = _observation(given, study)
+    return View(observation.scene, observation.orbit, observation)
+
+
+def _strip(strip: StripBlock, orbit: Orbit) -> Scene:
+    middle = (np.arange(strip.segments) + 0.5) / strip.segments
+    return Scene.broadside_strip(
+        times=strip.start_s + strip.duration_s * middle,
+        look_angle=math.radians(strip.look_deg),
+        altitude=orbit.altitude,
+        earth_radius=EARTH_EQUATORIAL_RADIUS,
+        side=SIDES[strip.side],
+        slope=math.radians(strip.slope_deg),
+    )
+
+
+def _table(table: TableBlock) -> Scene:
+    incidence = table.look_deg if table.incidence_deg is None else table.incidence_deg
+    return Scene(
+        times=np.array(table.times_s),
+        slant_range=1e3 * np.array(table.slant_range_km),
+        look_angle=np.radians(table.look_deg),
+        azimuth=np.radians(table.azimuth_deg),
+        incidence=np.radians(incidence),
+        slope=np.radians(table.slope_deg),
+    )
+
+
+def _observation(block: ObservationBlock, study: FormationStudy) -> Observation:
+    trajectory = placed_trajectory(study.orbit, ("orbit",))
+    start = trajectory.start
+    if block.start is not None:
+        start = seconds_between(trajectory.epoch, utc(block.start))
+    targets = _targets(block)
+    try:
+        if targets is None:
+            return _arc(block, trajectory, start, study.radar.wavelength_m)
+        return _pass(block, trajectory, targets, start, study.radar.wavelength_m)
+    except ValueError as error:
+        at = (*_AT, "pass_number") if str(error).startswith("number = ") else _AT
+        raise _refused(at, error) from None
+
+
+def _pass(
+    block: ObservationBlock,
+    trajectory: PlacedTrajectory,
+    targets: Targets,
+    start: float,
+    wavelength: float,
+) -> Observation:
+    return observe(
+        trajectory,
+        targets,
+        wavelength=wavelength,
+        side=SIDES[block.side],
+        start=start,
+        stop=start + _DAY * block.search_days,
+        law=Law(block.steering),
+        boresight=_boresight(block),
+        near_incidence=math.radians(block.near_incidence_deg),
+        far_incidence=math.radians(block.far_incidence_deg),
+        reference=Reference(block.reference),
+        direction=Direction(block.direction),
+        number=block.pass_number,
+        slope=math.radians(block.slope_deg),
+    )
+
+
+def _arc(
+    block: ObservationBlock, trajectory: PlacedTrajectory, start: float, wavelength: float
+) -> Observation:
+    boresight = _boresight(block)
+    if boresight is None:
+        raise ValueError("a band needs a boresight; add incidence_deg: 35")
+    return observe_arc(
+        trajectory,
+        wavelength=wavelength,
+        side=SIDES[block.side],
+        boresight=boresight,
+        start=start,
+        stop=start + _DAY * block.search_days,
+        latitude=_radians(block.latitude_deg),
+        argument_of_latitude=_radians(block.argument_of_latitude_deg),
+        segments=block.count,
+        law=Law(block.steering),
+        near_incidence=math.radians(block.near_incidence_deg),
+        far_incidence=math.radians(block.far_incidence_deg),
+        reference=Reference(block.reference),
+        direction=Direction(block.direction),
+        slope=math.radians(block.slope_deg),
+    )
+
+
+def _targets(block: ObservationBlock) -> Targets | None:
+    """Targets one by one or of an area; None for what the boresight sweeps."""
+    if block.points is not None:
+        return Targets.from_points(
+            latitude=np.radians([point.latitude_deg for point in block.points]),
+            longitude=np.radians([point.longitude_deg for point in block.points]),
+            height=[point.height_m for point in block.points],
+        )
+    if block.geojson_file is None:
+        return None
+    try:
+        return Targets.from_geojson(
+            block.geojson_file.text, count=block.count, height=block.height_m or 0.0
+        )
+    except ValueError as error:
+        raise _refused((*_AT, "geojson_file"), error) from None
+
+
+def _boresight(block: ObservationBlock) -> Boresight | None:
+    if block.look_deg is not None:
+        return FixedLook(math.radians(block.look_deg))
+    if block.incidence_deg is not None:
+        return FixedIncidence(math.radians(block.incidence_deg))
+    return None
+
+
+def _radians(band: tuple[float, float] | None) -> tuple[float, float] | None:
+    return None if band is None else (math.radians(band[0]), math.radians(band[1]))
+
+
+def _refused(at: KeyPath, error: ValueError) -> BuildError:
+    return BuildError(at, f"cannot be used: {' '.join(str(error).split())}")

@@ -1,0 +1,49 @@
+"""What the terminal shows of formations that were scored."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from optimize import Assessment
+
+from .outcome import Summary
+
+
+def formation_summary(shown: Sequence[Assessment]) -> Summary:
+    """Height error, unwrapping and limits of each formation.
+
+    Parameters
+    ----------
+    shown : the formations, the one that matters last.
+    """
+    rows = [
+        (
+            "height error, total (RMS)",
+            tuple(meters(float(a.height_error.region)) for a in shown),
+        ),
+        (
+            "height error, relative",
+            tuple(meters(float(a.height_error.relative_region)) for a in shown),
+        ),
+    ]
+    unwrapping = [a.unwrapping for a in shown if a.unwrapping is not None]
+    if len(unwrapping) == len(shown):
+        rows.append(
+            ("unwrapping probability", tuple(f"{u.probability.min():.4f}" for u in unwrapping))
+        )
+    rows.append(("limits", tuple(_limits(a) for a in shown)))
+    return Summary(tuple(a.label for a in shown), tuple(rows))
+
+
+def meters(value: float) -> str:
+    """A length as the terminal shows it; none if it is not finite."""
+    return f"{value:.3f} m" if np.isfinite(value) else "none"
+
+
+def _limits(assessment: Assessment) -> str:
+    broken = sum(not report.satisfied for report in assessment.constraints)
+    if broken:
+        return f"{broken} of {len(assessment.constraints)} broken"
+    return "all kept" if assessment.constraints else "none set"

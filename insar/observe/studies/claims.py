@@ -1,0 +1,310 @@
+"""Printed figures against what the stated inputs give."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..steering import Law
+from .compensation import deviation
+from .results import (
+    CaseResult,
+    Claim,
+    Compensation,
+    Effect,
+    Held,
+    LawCurves,
+    Selection,
+    Verdict,
+)
+
+Array = NDArray[np.float64]
+
+
+class Quantity(StrEnum):
+    """What a printed figure is about; largest values are over all samples of a case."""
+
+    LARGEST_YAW = "largest_yaw"
+    LARGEST_PITCH = "largest_pitch"
+    LARGEST_ROLL = "largest_roll"
+    LARGEST_ANGLE = "largest_angle"
+    """The larger of the two angles that a law steers."""
+    LARGEST_RESIDUAL_DOPPLER = "largest_residual_doppler"
+    """At the boresight; of the law `none`, the Doppler centroid of the unsteered radar."""
+    LARGEST_SWATH_DOPPLER = "largest_swath_doppler"
+    SLEW_TIME = "slew_time"
+    """To turn by the largest angle at `rate`."""
+    SLEW_RATIO = "slew_ratio"
+    """Largest angle of `law` over that of `other_law`: the ratio of their slew times too."""
+    RATE_RATIO = "rate_ratio"
+    """Largest rate of a steered angle, of `law` over `other_law`."""
+    CROSSOVER_ALTITUDE = "crossover_altitude"
+    """Where yaw-pitch and pitch-roll steer the same total angle, at `held` and `inclination`."""
+    ELLIPSOID_EFFECT = "ellipsoid_effect"
+    """Largest change of the range rate by the Earth's figure alone."""
+    COMPENSATION = "compensation"
+    """Part of the Doppler that the simplified yaw takes away, in the maximum norm."""
+    DEVIATION_SLOPE = "deviation_slope"
+    """Largest deviation of the simplified range rate per unit of eccentricity."""
+
+
+class Relation(StrEnum):
+    """How a printed figure limits the computed one."""
+
+    EQUALS = "equals"
+    AT_MOST = "at_most"
+    AT_LEAST = "at_least"
+
+
+@dataclass(frozen=True, kw_only=True)
+class ClaimSpec:
+    """A printed figure, and what to compute for it.
+
+    Parameters
+    ----------
+    text : what is claimed.
+    printed : how the source prints it, with its unit.
+    quantity : what to compute.
+    value : printed figure, SI.
+    tolerance : by which the computed figure may miss it, SI.
+    relation : how the figure limits the quantity.
+    unit : of the claim, as the report shows it; empty for none.
+    scale : one such unit, SI.
+    case : name of the case, for the quantities of a case.
+    law, other_law : steering laws, for the quantities that need them.
+    rate : slew rate, for `SLEW_TIME` [rad/s].
+    held, inclination : of the selection, for `CROSSOVER_ALTITUDE` [-, rad].
+    effect, argument_of_perigee : for `COMPENSATION`; the worst of all arguments if None [-, rad].
+    eccentricity : for `COMPENSATION`, instead of the effect: where to read the sweep.
+    note : why, in words.
+
+    Raises
+    ------
+    ValueError
+        If something that the quantity needs is missing.
+    """
+
+    text: str
+    printed: str
+    quantity: Quantity
+    value: float
+    tolerance: float = 0.0
+    relation: Relation = Relation.EQUALS
+    unit: str = ""
+    scale: float = 1.0
+    case: str | None = None
+    law: Law | None = None
+    other_law: Law | None = None
+    rate: float | None = None
+    held: Held | None = None
+    inclination: float | None = None
+    effect: Effect | None = None
+    eccentricity: float | None = None
+    argument_of_perigee: float | None = None
+    note: str = ""
+
+    def __post_init__(self) -> None:
+        if self.quantity is Quantity.COMPENSATION:
+            given = (self.effect is not None) + (self.eccentricity is not None)
+            if given != 1:
+                raise ValueError("a claim of compensation needs either effect or eccentricity")
+        for name in NEEDS[self.quantity]:
+            if getattr(self, name) is None:
+                raise ValueError(f"a claim of {self.quantity.value} needs {name}; give it")
+
+
+_LAW = ("case", "law")
+NEEDS: dict[Quantity, tuple[str, ...]] = {
+    Quantity.LARGEST_YAW: _LAW,
+    Quantity.LARGEST_PITCH: _LAW,
+    Quantity.LARGEST_ROLL: _LAW,
+    Quantity.LARGEST_ANGLE: _LAW,
+    Quantity.LARGEST_RESIDUAL_DOPPLER: _LAW,
+    Quantity.LARGEST_SWATH_DOPPLER: _LAW,
+    Quantity.SLEW_TIME: (*_LAW, "rate"),
+    Quantity.SLEW_RATIO: (*_LAW, "other_law"),
+    Quantity.RATE_RATIO: (*_LAW, "other_law"),
+    Quantity.CROSSOVER_ALTITUDE: ("held", "inclination"),
+    Quantity.ELLIPSOID_EFFECT: (),
+    Quantity.COMPENSATION: (),
+    Quantity.DEVIATION_SLOPE: (),
+}
+"""What a claim must say besides its value; `COMPENSATION` needs one of effect and eccentricity."""
+
+
+def judge(
+    claim: ClaimSpec,
+    *,
+    cases: Sequence[CaseResult] = (),
+    selections: Sequence[Selection] = (),
+    compensation: Compensation | None = None,
+) -> Claim:
+    """Compute what a claim is about, and say whether it holds.
+
+    Parameters
+    ----------
+    claim : the printed figure.
+    cases, selections, compensation : what the study has computed.
+
+    Returns
+    -------
+    Claim — not computable if a law has no solution somewhere on the orbit, or if the steering
+    angles do not cross in the selection's range.
+
+    Raises
+    ------
+    ValueError
+        If the claim is about a case, law, selection or compensation that is not there.
+    """
+    if claim.quantity in _OF_LAW:
+        value = _of_case(claim, cases)
+    elif claim.quantity is Quantity.CROSSOVER_ALTITUDE:
+        value = _crossover(claim, selections)
+    elif compensation is None:
+        raise ValueError(f"the claim {claim.text!r} needs a compensation; add one to the study")
+    else:
+        value = _of_compensation(claim, compensation)
+    return Claim(
+        text=claim.text,
+        printed=claim.printed,
+        computed=value / claim.scale,
+        unit=claim.unit,
+        verdict=_verdict(claim, value),
+        note=claim.note,
+    )
+
+
+def _verdict(claim: ClaimSpec, computed: float) -> Verdict:
+    if math.isnan(computed):
+        return Verdict.UNKNOWN
+    above = computed - claim.value
+    miss = {Relation.EQUALS: abs(above), Relation.AT_MOST: above, Relation.AT_LEAST: -above}
+    return Verdict.HOLDS if miss[claim.relation] <= claim.tolerance else Verdict.FAILS
+
+
+# -- of a case -----------------------------------------------------------------------------------
+
+
+def largest_angle(curves: LawCurves) -> float:
+    """Larger of the steered angles over the samples [rad]; NaN if a sample has no solution."""
+    return _largest(np.stack([curves.yaw, curves.pitch, curves.roll]))
+
+
+def angle_rates(curves: LawCurves) -> Array:
+    """Rates of yaw, pitch and roll themselves, (3, S) [rad/s].
+
+    From the angular velocity (p, q, r) of the body against the orbit frame.
+    """
+    p, q, r = np.moveaxis(curves.rate_orbit, -1, 0)
+    sine, cosine = np.sin(curves.roll), np.cos(curves.roll)
+    yaw = (q * sine + r * cosine) / np.cos(curves.pitch)
+    pitch = q * cosine - r * sine
+    return np.stack([yaw, pitch, p + yaw * np.sin(curves.pitch)])
+
+
+def largest_rate(curves: LawCurves) -> float:
+    """Largest rate of a steered angle [rad/s]; NaN if a sample has no solution."""
+    return _largest(angle_rates(curves))
+
+
+def _largest(values: Array) -> float:
+    """Largest magnitude; NaN if there is a NaN."""
+    return float(np.abs(values).max())
+
+
+_OF_LAW: dict[Quantity, Callable[[LawCurves], float]] = {
+    Quantity.LARGEST_YAW: lambda curves: _largest(curves.yaw),
+    Quantity.LARGEST_PITCH: lambda curves: _largest(curves.pitch),
+    Quantity.LARGEST_ROLL: lambda curves: _largest(curves.roll),
+    Quantity.LARGEST_ANGLE: largest_angle,
+    Quantity.LARGEST_RESIDUAL_DOPPLER: lambda curves: _largest(curves.residual_doppler),
+    Quantity.LARGEST_SWATH_DOPPLER: lambda curves: _largest(curves.swath_doppler),
+    Quantity.SLEW_TIME: largest_angle,
+    Quantity.SLEW_RATIO: largest_angle,
+    Quantity.RATE_RATIO: largest_rate,
+}
+"""What is measured on the curves of a law; times and ratios divide it."""
+
+
+def _of_case(claim: ClaimSpec, cases: Sequence[CaseResult]) -> float:
+    measure = _OF_LAW[claim.quantity]
+    value = measure(_curves(claim, cases, claim.law))
+    if claim.quantity is Quantity.SLEW_TIME and claim.rate is not None:
+        return value / claim.rate
+    if claim.quantity in (Quantity.SLEW_RATIO, Quantity.RATE_RATIO):
+        return value / measure(_curves(claim, cases, claim.other_law))
+    return value
+
+
+def _curves(claim: ClaimSpec, cases: Sequence[CaseResult], law: Law | None) -> LawCurves:
+    for case in cases:
+        for curves in case.curves:
+            if case.name == claim.case and curves.law is law:
+                return curves
+    raise ValueError(
+        f"the claim {claim.text!r} is about the law {law!r} in the case {claim.case!r}, which was "
+        "not assessed; correct the names, or add the law to the case"
+    )
+
+
+# -- of a selection ------------------------------------------------------------------------------
+
+
+def _crossover(claim: ClaimSpec, selections: Sequence[Selection]) -> float:
+    """Crossover nearest to the printed one; NaN if there is none."""
+    for selection in selections:
+        for inclination, found in zip(selection.inclinations, selection.crossovers, strict=True):
+            if selection.held is claim.held and _same(inclination, claim.inclination):
+                nearest = sorted(found, key=lambda altitude: abs(altitude - claim.value))
+                return nearest[0] if nearest else math.nan
+    raise ValueError(
+        f"no selection has what the claim {claim.text!r} is about: held = {claim.held!r}, "
+        f"inclination = {claim.inclination!r} rad; add it to the study"
+    )
+
+
+# -- of a compensation ---------------------------------------------------------------------------
+
+
+def _of_compensation(claim: ClaimSpec, found: Compensation) -> float:
+    if claim.quantity is Quantity.DEVIATION_SLOPE:
+        e = found.eccentricities
+        return float(e @ found.sweep_deviation / (e @ e))  # the least-squares line through 0
+    if claim.quantity is Quantity.ELLIPSOID_EFFECT:
+        return max(deviation(each) for each in found.curves if each.effect is Effect.EARTH_SHAPE)
+    if claim.eccentricity is not None:
+        return _swept(claim.eccentricity, found)
+    return _under_effect(claim, found)
+
+
+def _swept(eccentricity: float, found: Compensation) -> float:
+    """Compensation at an eccentricity of the sweep; NaN outside it."""
+    e = found.eccentricities
+    return float(np.interp(eccentricity, e, found.sweep, left=np.nan, right=np.nan))
+
+
+def _under_effect(claim: ClaimSpec, found: Compensation) -> float:
+    """Compensation under an effect, the worst of the arguments of perigee if none is named."""
+    perigee = claim.argument_of_perigee
+    values = [
+        curve.compensation
+        for curve in found.curves
+        if curve.effect is claim.effect
+        and (perigee is None or _same(curve.argument_of_perigee, perigee))
+    ]
+    if not values:
+        raise ValueError(
+            f"the compensation has no curve for the claim {claim.text!r}: effect = "
+            f"{claim.effect!r}, argument_of_perigee = {perigee!r} rad; add the argument"
+        )
+    return min(values)
+
+
+def _same(angle: float, other: float | None) -> bool:
+    """Whether two angles were meant to be the same, but for rounding."""
+    return other is not None and abs(angle - other) < 1e-9
