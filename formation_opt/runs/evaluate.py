@@ -6,7 +6,7 @@ from configs import EvaluateStudy
 from configs.build import EvaluateSetup
 from optimize import EvaluateResult, assess, findings
 
-from .formation_summary import formation_summary
+from .formation_summary import formation_summary, scene_cautions
 from .outcome import Options, Outcome
 
 
@@ -29,7 +29,7 @@ def run(study: EvaluateStudy, setup: EvaluateSetup, options: Options) -> Outcome
         critical_baseline=setup.critical_baseline,
         formation=formation,
         compare=compare,
-        warnings=findings(setup.problem, formation),
+        warnings=(*scene_cautions(setup.observation), *findings(setup.problem, formation)),
     )
     return Outcome(
         result=result,

@@ -1,4 +1,4 @@
-"""What the terminal shows of formations that were scored."""
+"""What the runs that score formations have in common."""
 
 from __future__ import annotations
 
@@ -6,6 +6,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from insar.observe import Observation
+from insar.observe.cautions import cautions
 from optimize import Assessment
 
 from .outcome import Summary
@@ -35,6 +37,11 @@ def formation_summary(shown: Sequence[Assessment]) -> Summary:
         )
     rows.append(("limits", tuple(_limits(a) for a in shown)))
     return Summary(tuple(a.label for a in shown), tuple(rows))
+
+
+def scene_cautions(observation: Observation | None) -> tuple[str, ...]:
+    """Warnings of the scene; none for a scene that was given."""
+    return () if observation is None else cautions(observation)
 
 
 def meters(value: float) -> str:

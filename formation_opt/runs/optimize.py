@@ -8,7 +8,7 @@ from configs import OptimizeStudy
 from configs.build import OptimizeSetup
 from optimize import Assessment, OptimizeResult, assess, findings, search
 
-from .formation_summary import formation_summary
+from .formation_summary import formation_summary, scene_cautions
 from .outcome import Options, Outcome
 
 
@@ -55,7 +55,7 @@ def run(study: OptimizeStudy, setup: OptimizeSetup, options: Options) -> Outcome
         ),
         search=found,
         notices=tuple(notices),
-        warnings=findings(setup.problem, best),
+        warnings=(*scene_cautions(setup.observation), *findings(setup.problem, best)),
     )
     return Outcome(
         result=result,
