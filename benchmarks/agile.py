@@ -30,14 +30,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from formation import KeplerianOrbit
-from insar.observe.agile import EulerSequence, euler_sequence, quaternion
+from insar.observe.agile.rotations import EulerSequence, euler_sequence, quaternion
+from insar.observe.agile.smooth_orbit import SmoothOrbit, smooth_orbit
+from insar.observe.agile.spotlight import spotlight
+from insar.observe.agile.spotlight_attitude import Antenna, attitude_profile, point
+from insar.observe.agile.spotlight_plan import plan_spotlight
+from insar.observe.agile.spotlight_results import SpotlightPlan, SpotlightRequest
 from insar.observe.earth import to_geodetic
 from insar.observe.frames import orbit_axes
-from insar.observe.smooth_orbit import SmoothOrbit, smooth_orbit
-from insar.observe.spotlight import spotlight
-from insar.observe.spotlight_attitude import Antenna, attitude_profile, point
-from insar.observe.spotlight_plan import plan_spotlight
-from insar.observe.spotlight_results import SpotlightPlan, SpotlightRequest
 
 Array = NDArray[np.float64]
 

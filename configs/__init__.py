@@ -5,6 +5,7 @@ Loading needs neither scipy nor DEAP. `configs.build` does, and is imported by w
 
 from __future__ import annotations
 
+from .agile_studies import CoverageStudy, SpotlightStudy, VideoStudy
 from .examples import example_names, example_path, example_text
 from .files import InputFile
 from .loader import LoadedStudy, effective_text, load_study
@@ -14,20 +15,23 @@ from .studies import (
     EvaluateStudy,
     OptimizeStudy,
     SteeringStudy,
-    Study,
     json_schema,
 )
+from .study import Study
 
 __all__ = [
     "STUDIES",
     "BuildError",
+    "CoverageStudy",
     "EvaluateStudy",
     "InputFile",
     "LoadedStudy",
     "OptimizeStudy",
+    "SpotlightStudy",
     "SteeringStudy",
     "Study",
     "StudyError",
+    "VideoStudy",
     "effective_text",
     "example_names",
     "example_path",

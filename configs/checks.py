@@ -61,14 +61,19 @@ def check_table(table: TableBlock, orbit: Orbit) -> None:
 
 def check_observation(observation: ObservationBlock, orbit: OrbitBlock) -> None:
     """The orbit is known above the turning Earth, and its beam meets the ground."""
+    check_placed(orbit)
+    if observation.look_deg is not None:
+        check_beam(observation.look_deg, orbit, ("scene", "observation", "look_deg"))
+
+
+def check_placed(orbit: OrbitBlock) -> None:
+    """It is known when the satellite is above a target."""
     if not orbit.is_placed:
         raise wrong(
             ("orbit",),
             "lacks an epoch, without which nobody knows when the satellite is above the targets",
             "add epoch: 2026-11-23T05:07:00Z, or give tle, tle_file or oem_file",
         )
-    if observation.look_deg is not None:
-        check_beam(observation.look_deg, orbit, ("scene", "observation", "look_deg"))
 
 
 def check_beam(look_deg: float, orbit: OrbitBlock, at: KeyPath) -> None:

@@ -25,7 +25,12 @@ from .schema import Schema, block_at, describe, resolve, schema_at
 MAX_FINDINGS = 5
 """Findings that one message lists; the others are counted."""
 
-_EXAMPLES = {"steering": "terrasar_x"}
+_EXAMPLES = {
+    "steering": "terrasar_x",
+    "spotlight": "han2016_spotlight",
+    "video": "liang2018_video",
+    "coverage": "walker_coverage",
+}
 """Example to copy a block from, for the kinds other than those of `three_sat`."""
 
 _SHORT = 45

@@ -24,7 +24,8 @@ from .messages import (
     study_error,
 )
 from .reader import MAX_BYTES, Document, read_document
-from .studies import DEFAULT_KIND, STUDIES, Study
+from .studies import DEFAULT_KIND, STUDIES
+from .study import Study
 
 
 def effective_text(study: Study) -> str:

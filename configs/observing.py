@@ -3,32 +3,27 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from datetime import datetime
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from formation import Orbit, States, Trajectory
+from formation import Orbit
 from formation.constants import EARTH_EQUATORIAL_RADIUS
-from formation.timescales import seconds_between
 from insar import LookSide, Scene
 from insar.observe import Boresight, FixedIncidence, FixedLook, Law, Observation, Reference
-from insar.observe.observe import observe, observe_arc
-from insar.observe.passes import Direction
-from insar.observe.targets import Targets
+from insar.observe.scenes.observing import observe, observe_arc
+from insar.observe.scenes.passes import Direction
+from insar.observe.scenes.targets import Targets
 
-from .base import utc
-from .messages import BuildError, KeyPath
+from .messages import KeyPath
 from .observation import ObservationBlock, SideName
-from .orbits import OrbitBlock, build_trajectory
+from .placed import DAY, PlacedTrajectory, placed_trajectory, refusal
 from .scenes import StripBlock, TableBlock
+from .staring import build_staring_scene
 from .studies import FormationStudy
 
 SIDES: dict[SideName, LookSide] = {"left": LookSide.LEFT, "right": LookSide.RIGHT}
 
-_DAY = 86_400.0
 _AT: KeyPath = ("scene", "observation")
 
 
@@ -39,71 +34,13 @@ class View(NamedTuple):
     ----------
     scene : the segments.
     orbit : the circular reference orbit.
-    observation : where the scene comes from; None if the study gives it.
+    observation : where the scene comes from; None if the study gives it, or if the beam stays on
+        one place.
     """
 
     scene: Scene
     orbit: Orbit
     observation: Observation | None
-
-
-@dataclass(frozen=True)
-class PlacedTrajectory:
-    """A trajectory of a study, which blames its place in the study for what it does not know.
-
-    Parameters
-    ----------
-    trajectory : the orbit.
-    at : its place in the study.
-    """
-
-    trajectory: Trajectory
-    at: KeyPath
-
-    @property
-    def epoch(self) -> datetime:
-        """Time zero (UTC)."""
-        return self.trajectory.epoch
-
-    @property
-    def span(self) -> tuple[float, float]:
-        """First and last time at which the states are known [s]."""
-        return self.trajectory.span
-
-    @property
-    def start(self) -> float:
-        """Time zero, or the first time known after it [s]."""
-        return max(0.0, self.trajectory.span[0])
-
-    @property
-    def perturbed(self) -> bool:
-        """Whether the states contain the periodic terms of J2."""
-        return self.trajectory.perturbed
-
-    def inertial(self, times: ArrayLike) -> States:
-        """States in the GCRS; a time that is not known raises a BuildError."""
-        try:
-            return self.trajectory.inertial(times)
-        except ValueError as error:
-            raise _refused(self.at, error) from None
-
-    def earth_fixed(self, times: ArrayLike) -> States:
-        """States in the ITRS; a time that is not known raises a BuildError."""
-        try:
-            return self.trajectory.earth_fixed(times)
-        except ValueError as error:
-            raise _refused(self.at, error) from None
-
-
-def placed_trajectory(block: OrbitBlock, at: KeyPath) -> PlacedTrajectory:
-    """Build the orbit on the real Earth.
-
-    Parameters
-    ----------
-    block : the orbit.
-    at : its place in the study.
-    """
-    return PlacedTrajectory(build_trajectory(block), (*at, *block.blamed))
 
 
 def build_view(study: FormationStudy) -> View:
@@ -123,8 +60,12 @@ def build_view(study: FormationStudy) -> View:
         return View(_table(given), orbit, None)
     if isinstance(given, StripBlock):
         return View(_strip(given, orbit), orbit, None)
-    observation = _observation(given, study)
-    return View(observation.scene, observation.orbit, observation)
+    trajectory, wavelength = placed_trajectory(study.orbit, ("orbit",)), study.radar.wavelength_m
+    if isinstance(given, ObservationBlock):
+        observation = _observation(given, trajectory, wavelength)
+        return View(observation.scene, observation.orbit, observation)
+    staring = build_staring_scene(given, trajectory, wavelength)
+    return View(staring.scene, staring.orbit, None)
 
 
 def _strip(strip: StripBlock, orbit: Orbit) -> Scene:
@@ -151,19 +92,18 @@ def _table(table: TableBlock) -> Scene:
     )
 
 
-def _observation(block: ObservationBlock, study: FormationStudy) -> Observation:
-    trajectory = placed_trajectory(study.orbit, ("orbit",))
-    start = trajectory.start
-    if block.start is not None:
-        start = seconds_between(trajectory.epoch, utc(block.start))
+def _observation(
+    block: ObservationBlock, trajectory: PlacedTrajectory, wavelength: float
+) -> Observation:
+    start = trajectory.since(block.start)
     targets = _targets(block)
     try:
         if targets is None:
-            return _arc(block, trajectory, start, study.radar.wavelength_m)
-        return _pass(block, trajectory, targets, start, study.radar.wavelength_m)
+            return _arc(block, trajectory, start, wavelength)
+        return _pass(block, trajectory, targets, start, wavelength)
     except ValueError as error:
         at = (*_AT, "pass_number") if str(error).startswith("number = ") else _AT
-        raise _refused(at, error) from None
+        raise refusal(at, error) from None
 
 
 def _pass(
@@ -179,7 +119,7 @@ def _pass(
         wavelength=wavelength,
         side=SIDES[block.side],
         start=start,
-        stop=start + _DAY * block.search_days,
+        stop=start + DAY * block.search_days,
         law=Law(block.steering),
         boresight=_boresight(block),
         near_incidence=math.radians(block.near_incidence_deg),
@@ -203,7 +143,7 @@ def _arc(
         side=SIDES[block.side],
         boresight=boresight,
         start=start,
-        stop=start + _DAY * block.search_days,
+        stop=start + DAY * block.search_days,
         latitude=_radians(block.latitude_deg),
         argument_of_latitude=_radians(block.argument_of_latitude_deg),
         segments=block.count,
@@ -231,7 +171,7 @@ def _targets(block: ObservationBlock) -> Targets | None:
             block.geojson_file.text, count=block.count, height=block.height_m or 0.0
         )
     except ValueError as error:
-        raise _refused((*_AT, "geojson_file"), error) from None
+        raise refusal((*_AT, "geojson_file"), error) from None
 
 
 def _boresight(block: ObservationBlock) -> Boresight | None:
@@ -244,7 +184,3 @@ def _boresight(block: ObservationBlock) -> Boresight | None:
 
 def _radians(band: tuple[float, float] | None) -> tuple[float, float] | None:
     return None if band is None else (math.radians(band[0]), math.radians(band[1]))
-
-
-def _refused(at: KeyPath, error: ValueError) -> BuildError:
-    return BuildError(at, f"cannot be used: {' '.join(str(error).split())}")

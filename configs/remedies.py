@@ -21,6 +21,7 @@ _GUESSES: dict[str, list[_Guess]] = {
         ("GHz", lambda value: _SPEED_OF_LIGHT / (1e9 * value)),
         ("Hz", lambda value: _SPEED_OF_LIGHT / value),
     ],
+    "_deg_s2": [("radians per second squared", math.degrees)],
     "_deg_s": [("radians per second", math.degrees)],
     "_m_s": [("mm/s", lambda value: value / 1e3)],
     "_km": [("meters", lambda value: value / 1e3)],
@@ -57,6 +58,8 @@ def remedy(value: Any, key: str, schema: Schema) -> str:
     numeric = bool(kinds & {"number", "integer"})
     if value is None:
         return "give a value, or remove the key"
+    if isinstance(value, list) and "array" in kinds:
+        return "add or remove entries"
     if numeric and isinstance(value, bool | list | dict):
         return "write one number"
     if numeric and isinstance(value, int | float):
@@ -70,8 +73,6 @@ def remedy(value: Any, key: str, schema: Schema) -> str:
         return did_you_mean(value, words).strip() or "correct the text"
     if isinstance(value, int | float) and "string" in kinds:
         return f"as a text it needs quotes: '{show(value)}'"
-    if isinstance(value, list) and "array" in kinds:
-        return "add or remove entries"
     if "array" in kinds:
         return "write a list, as in [a, b]"
     return f"indent its keys below '{key}:'" if "object" in kinds else "correct the value"

@@ -7,6 +7,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
+from .agile import SpotlightSceneBlock, VideoSceneBlock
 from .base import Block, Number, Whole, wrong
 from .messages import KeyPath
 from .observation import ObservationBlock
@@ -137,7 +138,7 @@ def check_slope(slope_deg: float, incidence_deg: tuple[float, ...], at: KeyPath)
 
 
 class SceneBlock(Block):
-    """What is observed: a strip, a table of segments, or targets on the real Earth."""
+    """What is observed: a strip, a table of segments, or places on the real Earth."""
 
     strip: StripBlock | None = Field(
         default=None, description="A broadside strip at one look angle; or give another."
@@ -149,6 +150,13 @@ class SceneBlock(Block):
         default=None,
         description="Targets on the real Earth, seen from the study's orbit; or give another.",
     )
+    spotlight: SpotlightSceneBlock | None = Field(
+        default=None,
+        description="One target, over the aperture of a spotlight image; or give another.",
+    )
+    video: VideoSceneBlock | None = Field(
+        default=None, description="One target, over a film of it; or give another."
+    )
 
     @model_validator(mode="after")
     def _check(self) -> Self:
@@ -156,13 +164,20 @@ class SceneBlock(Block):
         if len(given) != 1:
             raise wrong(
                 (),
-                "needs exactly one of strip, table and observation",
+                "needs exactly one of strip, table, observation, spotlight and video",
                 "keep one of them" if given else "add 'strip: {look_deg: 23}'",
             )
         return self
 
     @property
-    def given(self) -> StripBlock | TableBlock | ObservationBlock:
-        """The strip, the table or the observation."""
-        shapes = (self.strip, self.table, self.observation)
+    def staring(self) -> SpotlightSceneBlock | VideoSceneBlock | None:
+        """The one target that the beam stays on, if the scene is such a one."""
+        return self.spotlight or self.video
+
+    @property
+    def given(
+        self,
+    ) -> StripBlock | TableBlock | ObservationBlock | SpotlightSceneBlock | VideoSceneBlock:
+        """What the scene consists of."""
+        shapes = (self.strip, self.table, self.observation, self.staring)
         return next(shape for shape in shapes if shape is not None)

@@ -10,7 +10,9 @@ from .messages import KeyPath
 Schema = dict[str, Any]
 
 _UNITS = {
+    "_deg_s2": "degrees per second squared",
     "_deg_s": "degrees per second",
+    "_hz": "Hz",
     "_m_s": "m/s",
     "_km": "km",
     "_m": "m",
@@ -62,8 +64,10 @@ def block_at(schema: Schema, path: KeyPath) -> Iterable[str]:
 
 def choices(schema: Schema) -> list[Schema]:
     """The alternatives that a schema allows, without null."""
-    found: list[Schema] = schema.get("anyOf") or schema.get("oneOf") or [schema]
-    return [choice for choice in found if choice.get("type") != "null"]
+    found = schema.get("anyOf") or schema.get("oneOf")
+    if found is None:
+        return [] if schema.get("type") == "null" else [schema]
+    return [choice for inner in found for choice in choices(inner)]
 
 
 def resolve(schema: Schema) -> Schema:

@@ -23,8 +23,9 @@ from insar.observe import (
 )
 
 from .claims import ClaimBlock
-from .observing import SIDES, placed_trajectory
+from .observing import SIDES
 from .orbits import build_reference
+from .placed import placed_trajectory
 from .steering import BoresightBlock, CaseBlock, CompensationBlock, SelectionBlock
 from .studies import SteeringStudy
 

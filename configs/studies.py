@@ -1,4 +1,4 @@
-"""The kinds of study. A new kind is a class here and a line in `STUDIES`."""
+"""The kinds of study. A new kind is a class here or in `agile_studies`, and a line in `STUDIES`."""
 
 from __future__ import annotations
 
@@ -8,7 +8,8 @@ from pydantic import Field, TypeAdapter, model_validator
 
 from formation import Orbit
 
-from .base import Block, Prose, StudyName, Whole
+from .agile_studies import CoverageStudy, SpotlightStudy, VideoStudy
+from .base import Whole
 from .blocks import ErrorsBlock, RadarBlock
 from .checks import (
     check_drift,
@@ -17,6 +18,7 @@ from .checks import (
     check_members,
     check_names,
     check_observation,
+    check_placed,
     check_size,
     check_strip,
     check_table,
@@ -39,18 +41,7 @@ from .steering import (
     check_laws,
 )
 from .steering_checks import check_cases, check_claims, check_samples
-
-
-class Study(Block):
-    """What every study says."""
-
-    kind: str = Field(description="What the study does.")
-    name: StudyName = Field(
-        default="study",
-        description="Name in the report and of the output folder: letters, digits, '.', '-' and "
-        "'_'; the name of the file if absent.",
-    )
-    description: Prose = Field(default="", description="What the study is for, in words.")
+from .study import Study
 
 
 class FormationStudy(Study):
@@ -79,6 +70,8 @@ class FormationStudy(Study):
             check_table(self.scene.table, orbit)
         if self.scene.observation is not None:
             check_observation(self.scene.observation, self.orbit)
+        if self.scene.staring is not None:
+            check_placed(self.orbit)
         check_names(names)
         check_images(self.radar, names)
         check_labels(self.compare)
@@ -189,6 +182,9 @@ STUDIES: dict[str, type[Study]] = {
     "optimize": OptimizeStudy,
     "evaluate": EvaluateStudy,
     "steering": SteeringStudy,
+    "spotlight": SpotlightStudy,
+    "video": VideoStudy,
+    "coverage": CoverageStudy,
 }
 
 

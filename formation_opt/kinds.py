@@ -9,9 +9,11 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 from configs.build import build_evaluate, build_optimize
+from configs.covered import build_coverage
+from configs.staring import build_spotlight, build_video
 from configs.steered import build_steering
 
-from .runs import Options, Outcome, evaluate, optimize, steering
+from .runs import Options, Outcome, coverage, evaluate, optimize, spotlight, steering, video
 
 
 class Kind(NamedTuple):
@@ -32,4 +34,7 @@ KINDS: dict[str, Kind] = {
     "optimize": Kind(build_optimize, optimize.run),
     "evaluate": Kind(build_evaluate, evaluate.run),
     "steering": Kind(build_steering, steering.run),
+    "spotlight": Kind(build_spotlight, spotlight.run),
+    "video": Kind(build_video, video.run),
+    "coverage": Kind(build_coverage, coverage.run),
 }

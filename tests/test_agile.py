@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from formation import Elements, KeplerianOrbit, States
-from insar.observe.agile import (
+from insar.observe.agile.rotations import (
     EulerSequence,
     attitude_of_axis_angle,
     attitude_of_quaternion,
@@ -21,10 +21,8 @@ from insar.observe.agile import (
     euler_sequence,
     quaternion,
 )
-from insar.observe.attitude import angular_rates
-from insar.observe.frames import orbit_axes
-from insar.observe.smooth_orbit import SHORTEST, smooth_orbit
-from insar.observe.turning import (
+from insar.observe.agile.smooth_orbit import SHORTEST, smooth_orbit
+from insar.observe.agile.turning import (
     inertial_rate,
     moving_shortest_turn,
     orbit_frame,
@@ -32,6 +30,8 @@ from insar.observe.turning import (
     shortest_turn,
     turn_between,
 )
+from insar.observe.attitude import angular_rates
+from insar.observe.frames import orbit_axes
 
 ROUNDING = 1e-14
 """Of products of rotation matrices and their conversions [rad]."""

@@ -8,9 +8,9 @@ import pytest
 
 from formation import KeplerianOrbit
 from insar import LookSide
-from insar.observe.cautions import cautions
-from insar.observe.observe import observe
-from insar.observe.targets import Targets
+from insar.observe.scenes.cautions import cautions
+from insar.observe.scenes.observing import observe
+from insar.observe.scenes.targets import Targets
 
 
 @pytest.fixture(scope="module")

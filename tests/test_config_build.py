@@ -304,12 +304,16 @@ def test_the_shipped_examples_are_these():
     assert example_names() == (
         "evaluate_example",
         "four_sat",
+        "han2016_spotlight",
         "li2009_ground_track",
         "li2009_space",
+        "liang2018_video",
         "meng2003_yaw",
         "terrasar_x",
         "three_sat",
         "three_sat_real",
+        "three_sat_spotlight",
+        "walker_coverage",
         "zhao2019_geosar",
     )
 

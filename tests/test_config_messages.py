@@ -197,7 +197,8 @@ IN_THREE_SAT = {
         "kind: optimize",
         "kind: optimise",
         "optimise",
-        "kind = 'optimise' must be one of optimize, evaluate, steering; did you mean 'optimize'?",
+        "kind = 'optimise' must be one of optimize, evaluate, steering, spotlight, video, "
+        "coverage; did you mean 'optimize'?",
     ),
     "name that is no file name": (
         "name: three_sat ",
@@ -312,7 +313,8 @@ IN_THREE_SAT = {
         "scene:\n",
         "scene:\n  table: {times_s: [1], slant_range_km: [500], look_deg: [9], azimuth_deg: [9]}\n",
         "scene:",
-        "scene needs exactly one of strip, table and observation; keep one of them",
+        "scene needs exactly one of strip, table, observation, spotlight and video; keep one of "
+        "them",
     ),
     "start of too few satellites": (
         "satellites: 3 ",

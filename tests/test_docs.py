@@ -24,6 +24,7 @@ GENERATED = [
     "error_model.md",
     "han2016.md",
     "li2009.md",
+    "liang2018.md",
     "meng2003.md",
     "orbits.md",
     "steering.md",

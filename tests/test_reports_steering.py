@@ -54,8 +54,8 @@ from reports.figures.projection import (
 from reports.html import html_bytes
 from reports.json_result import result_json, result_schema
 from reports.pages import page_of
+from reports.pages.claims import claims_section
 from reports.pages.observation import observation_section
-from reports.pages.steering_sections import claims_section
 from reports.pages.steering_studies import selection_section
 from reports.pages.steering_verdict import share_solved, steering_verdict
 from reports.reading_steering import exact_laws
@@ -286,7 +286,7 @@ def test_residuals_are_only_called_zero_when_they_are_rounding() -> None:
 
 
 def test_claims_show_both_figures_the_verdict_and_why(full: SteeringResult) -> None:
-    text = section_text(claims_section(CLAIMS))
+    text = section_text(claims_section(CLAIMS, "stated inputs"))
     assert "67° 75.0° ✗ does not hold Table 2 itself implies 75°" in text
     assert "none — ? not computable no bandwidth is stated" in text
     rows = list(csv.DictReader(io.StringIO(page_of(full).csv(full)["claims.csv"].to_csv())))

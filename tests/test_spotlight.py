@@ -14,23 +14,23 @@ import pytest
 from formation import Elements, KeplerianOrbit
 from formation.frames import gcrs_to_itrs
 from formation.timescales import moments
-from insar.observe.agile import attitude_of_quaternion, axis_angle
-from insar.observe.attitude import angular_rates
-from insar.observe.doppler import doppler_centroid
-from insar.observe.earth import from_geodetic, intersect, to_geodetic
-from insar.observe.frames import orbit_axes
-from insar.observe.look import angle_at_look, look_at, zero_doppler_plane
-from insar.observe.passes import Direction
-from insar.observe.smooth_orbit import smooth_orbit
-from insar.observe.spotlight import spotlight, spotlight_scene
-from insar.observe.spotlight_attitude import Antenna, attitude_profile
-from insar.observe.spotlight_plan import aim_point, ground_speed, plan_spotlight
-from insar.observe.spotlight_results import (
+from insar.observe.agile.rotations import attitude_of_quaternion, axis_angle
+from insar.observe.agile.smooth_orbit import smooth_orbit
+from insar.observe.agile.spotlight import spotlight, spotlight_scene
+from insar.observe.agile.spotlight_attitude import Antenna, attitude_profile
+from insar.observe.agile.spotlight_plan import aim_point, ground_speed, plan_spotlight
+from insar.observe.agile.spotlight_results import (
     Agility,
     Pointing,
     SpotlightRequest,
     SpotlightResult,
 )
+from insar.observe.attitude import angular_rates
+from insar.observe.doppler import doppler_centroid
+from insar.observe.earth import from_geodetic, intersect, to_geodetic
+from insar.observe.frames import orbit_axes
+from insar.observe.look import angle_at_look, look_at, zero_doppler_plane
+from insar.observe.scenes.passes import Direction
 from insar.observe.vectors import rotate
 from insar.scene import LookSide
 

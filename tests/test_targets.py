@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 from shapely.geometry import Point, Polygon
 
-from insar.observe.targets import Targets
+from insar.observe.scenes.targets import Targets
 
 ETNA = Path(__file__).parent.parent / "configs" / "areas" / "etna.geojson"
 

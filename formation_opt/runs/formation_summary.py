@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from insar.observe import Observation
-from insar.observe.cautions import cautions
+from insar.observe.scenes.cautions import cautions
 from optimize import Assessment
 
 from .outcome import Summary

@@ -36,7 +36,7 @@ from .look import (
     swath,
     zero_doppler_plane,
 )
-from .observation import Observation, Reference
+from .scenes.observation import Observation, Reference
 from .simplified import (
     simplified_azimuth,
     simplified_broadside_doppler,

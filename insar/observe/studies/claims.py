@@ -174,17 +174,26 @@ def judge(
         printed=claim.printed,
         computed=value / claim.scale,
         unit=claim.unit,
-        verdict=_verdict(claim, value),
+        verdict=verdict(value, claim.value, relation=claim.relation, tolerance=claim.tolerance),
         note=claim.note,
     )
 
 
-def _verdict(claim: ClaimSpec, computed: float) -> Verdict:
+def verdict(computed: float, printed: float, *, relation: Relation, tolerance: float) -> Verdict:
+    """Whether a computed figure agrees with a printed one, all in one unit.
+
+    Parameters
+    ----------
+    computed : scalar; NaN if it cannot be computed.
+    printed : scalar.
+    relation : how the printed figure limits the computed one.
+    tolerance : by which the computed one may miss it.
+    """
     if math.isnan(computed):
         return Verdict.UNKNOWN
-    above = computed - claim.value
+    above = computed - printed
     miss = {Relation.EQUALS: abs(above), Relation.AT_MOST: above, Relation.AT_LEAST: -above}
-    return Verdict.HOLDS if miss[claim.relation] <= claim.tolerance else Verdict.FAILS
+    return Verdict.HOLDS if miss[relation] <= tolerance else Verdict.FAILS
 
 
 # -- of a case -----------------------------------------------------------------------------------

@@ -8,9 +8,10 @@ from typing import Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .agile import EulerSequence, continuous, euler_sequence, quaternion
-from .frames import orbit_axes
-from .look import look_at
+from ..frames import orbit_axes
+from ..look import look_at
+from ..vectors import dot, rotate
+from .rotations import EulerSequence, continuous, euler_sequence, quaternion
 from .smooth_orbit import SmoothOrbit
 from .spotlight_results import (
     Agility,
@@ -27,7 +28,6 @@ from .turning import (
     shortest_turn,
     turn_between,
 )
-from .vectors import dot, rotate
 
 Array = NDArray[np.float64]
 

@@ -9,13 +9,14 @@ from numpy.typing import NDArray
 
 from formation import Trajectory
 
-from ..scene import LookSide
+from ...scene import LookSide
+from ..boresight import Boresight, FixedIncidence
+from ..earth import intersect
+from ..look import look_at
+from ..steering import Law
 from .arc import observe_arc
 from .assembly import Missed, Recording, record
-from .boresight import Boresight, FixedIncidence
 from .crossings import Crossings, nearest_crossings, zero_doppler
-from .earth import intersect
-from .look import look_at
 from .observation import Observation, Reference
 from .passes import (
     FAR_INCIDENCE,
@@ -27,7 +28,6 @@ from .passes import (
     sight,
 )
 from .reasons import never_seen, why_missed
-from .steering import Law
 from .targets import Targets
 from .windows import search_window
 

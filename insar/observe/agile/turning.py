@@ -12,8 +12,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from formation import States
 
-from .frames import EARTH_ROTATION, inertial_velocity, orbit_axes, rotation_velocity
-from .vectors import dot, rotate, unit
+from ..frames import EARTH_ROTATION, inertial_velocity, orbit_axes, rotation_velocity
+from ..vectors import dot, rotate, unit
 
 Array = NDArray[np.float64]
 

@@ -11,15 +11,15 @@ from numpy.typing import NDArray
 
 from formation import States, Trajectory
 
-from ..scene import LookSide
+from ...scene import LookSide
+from ..boresight import Boresight
+from ..earth import intersect, to_geodetic
+from ..frames import orbit_geometry
+from ..steering import Law
 from .assembly import Recording, record
-from .boresight import Boresight
 from .crossings import refine_root, sample_blocks, sign_changes
-from .earth import intersect, to_geodetic
-from .frames import orbit_geometry
 from .observation import Observation, Reference
 from .passes import FAR_INCIDENCE, NEAR_INCIDENCE, Direction, Strip
-from .steering import Law
 from .targets import Targets
 from .windows import Window, search_window, utc
 

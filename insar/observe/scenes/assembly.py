@@ -11,18 +11,18 @@ from numpy.typing import NDArray
 
 from formation import Trajectory, mean_elements_at, reference_orbit
 
-from ..scene import Scene
-from .boresight import FixedIncidence
+from ...scene import Scene
+from ..boresight import FixedIncidence
+from ..doppler import doppler_centroid
+from ..earth import Geodetic, to_geodetic
+from ..frames import rtn_axes
+from ..look import look_at, swath
+from ..steering import antenna_plane, off_boresight
+from ..vectors import dot, rotate, unit
 from .crossings import nearest_crossings, zero_doppler
-from .doppler import doppler_centroid
-from .earth import Geodetic, to_geodetic
-from .frames import rtn_axes
-from .look import look_at, swath
 from .observation import Observation, Reference
 from .passes import Strip
-from .steering import antenna_plane, off_boresight
 from .targets import Targets
-from .vectors import dot, rotate, unit
 from .windows import Window, moment, window_around
 
 Array = NDArray[np.float64]

@@ -7,8 +7,9 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from .earth import intersect, to_geodetic
-from .frames import EARTH_ROTATION, orbit_axes
+from ..earth import intersect, to_geodetic
+from ..frames import EARTH_ROTATION, orbit_axes
+from ..vectors import dot, rotate
 from .smooth_orbit import SmoothOrbit
 from .spotlight_attitude import Antenna, point
 from .spotlight_plan import aim_point
@@ -21,7 +22,6 @@ from .spotlight_results import (
     SpotlightPlan,
     SpotlightRequest,
 )
-from .vectors import dot, rotate
 
 Array = NDArray[np.float64]
 

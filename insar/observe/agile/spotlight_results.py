@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 
 from formation import Orbit, Trajectory
 
-from ..scene import LookSide, Scene
-from .passes import Direction
-from .studies.results import Claim
+from ...scene import LookSide, Scene
+from ..scenes.passes import Direction
+from ..studies.results import Claim
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]

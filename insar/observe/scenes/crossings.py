@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 
 from formation import States, Trajectory
 
-from .earth import vertical
-from .look import look_at
-from .vectors import dot, unit
+from ..earth import vertical
+from ..look import look_at
+from ..vectors import dot, unit
 from .windows import Window, window_around
 
 Array = NDArray[np.float64]

@@ -12,12 +12,12 @@ from numpy.typing import NDArray
 
 from formation import States, Trajectory
 
-from ..scene import LookSide
-from .boresight import Boresight
+from ...scene import LookSide
+from ..boresight import Boresight
+from ..look import look_at
+from ..steering import Law, Steering, antenna_plane, steer
+from ..vectors import dot
 from .crossings import Crossings, Indices, Mask, find_crossings
-from .look import look_at
-from .steering import Law, Steering, antenna_plane, steer
-from .vectors import dot
 from .windows import Window
 
 Array = NDArray[np.float64]

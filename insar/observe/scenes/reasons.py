@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 
 from formation import Trajectory
 
-from ..scene import LookSide
+from ...scene import LookSide
+from ..earth import to_geodetic
 from .crossings import Crossings, Mask
-from .earth import to_geodetic
 from .passes import Direction, Sightings, Strip
 from .targets import Targets
 from .windows import Window, utc

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..earth import from_geodetic
 from .areas import read_area, sample_area
-from .earth import from_geodetic
 
 Array = NDArray[np.float64]
 

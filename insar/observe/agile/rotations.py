@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.spatial.transform import Rotation
 
-from .vectors import dot, unit
+from ..vectors import dot, unit
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]

@@ -10,16 +10,16 @@ from numpy.typing import NDArray
 
 from formation import States, Trajectory
 
-from ..scene import LookSide
-from .crossings import find_crossings, zero_doppler
-from .doppler import doppler_rate
-from .earth import from_geodetic, to_geodetic, vertical
-from .look import look_at, zero_doppler_plane
-from .passes import Direction
+from ...scene import LookSide
+from ..doppler import doppler_rate
+from ..earth import from_geodetic, to_geodetic, vertical
+from ..look import look_at, zero_doppler_plane
+from ..scenes.crossings import find_crossings, zero_doppler
+from ..scenes.passes import Direction
+from ..scenes.windows import Window, moment, search_window, utc
+from ..vectors import dot
 from .smooth_orbit import smooth_orbit
 from .spotlight_results import SpotlightPlan, SpotlightRequest
-from .vectors import dot
-from .windows import Window, moment, search_window, utc
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]

@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 
 from formation import Orbit
 
-from ..scene import LookSide, Scene
-from .boresight import Boresight
-from .steering import Law
+from ...scene import LookSide, Scene
+from ..boresight import Boresight
+from ..steering import Law
 
 Array = NDArray[np.float64]
 

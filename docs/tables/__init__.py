@@ -1,0 +1,1 @@
+"""Tables of the documentation, computed by the code that they describe."""

@@ -1,0 +1,1 @@
+"""Agile modes: spotlight and video, their attitude, rates and echoes."""
