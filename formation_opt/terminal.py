@@ -76,6 +76,7 @@ def summary(table: Summary, paths: Sequence[Path], *, seconds: float) -> None:
     console = Console(file=io.StringIO(), width=100, color_system=None)
     with console.capture() as captured:
         console.print(drawn)
+    warnings = "".join(f"\nwarning: {text}" for text in table.warnings)
     folder = paths[0].parent
     names = ", ".join(path.name for path in paths)
-    say(f"{captured.get()}\n{folder}: {names}  ({seconds:.1f} s)")
+    say(f"{captured.get()}{warnings}\n{folder}: {names}  ({seconds:.1f} s)")

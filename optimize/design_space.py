@@ -141,6 +141,19 @@ class DesignSpace:
         z0, zdot0, sign = self.decode(designs)
         return self.family(z0, zdot0, mean_motion=self.mean_motion, sign=sign[..., None])
 
+    def mirrored(self, design: ArrayLike) -> Array | None:
+        """A design with the other cross-track sign; None where only one is allowed.
+
+        Parameters
+        ----------
+        design : (D,) — a design vector.
+        """
+        vector = np.array(design, dtype=np.float64)
+        if self.dimension == 2 * self.satellites:
+            return None
+        vector[-1] = -1.0 if vector[-1] >= 0.0 else 1.0
+        return vector
+
     def pretty(self, design: ArrayLike) -> str:
         """One design as text, a line for each satellite.
 

@@ -183,18 +183,13 @@ class _Search:
 
     def refine_best(self, count: int) -> bool:
         """Refine the best designs; return whether that was interrupted."""
-        interrupted = False
         candidates = self._distant_candidates(count)
-        for design in candidates:
-            outcome = refine(
-                self._score, design, upper=self.space.upper, free=2 * self.space.satellites
-            )
-            evaluation = self.evaluate(outcome.design[None])
-            violation, objective = evaluation.total_violation, evaluation.objectives
-            self._offer((float(violation[0]), float(objective[0]), outcome.design))
-            interrupted = outcome.interrupted
-            if interrupted:
-                break
+        interrupted = any(self._refine(design) for design in candidates)
+        # The cross-track sign is a choice, which no descent crosses: the best is tried with the
+        # other one too.
+        mirrored = self.space.mirrored(self._best[2]) if candidates and self._best else None
+        if mirrored is not None and not interrupted:
+            interrupted = self._refine(mirrored)
         if candidates:
             self._append(
                 GenerationRecord(
@@ -207,6 +202,14 @@ class _Search:
                 )
             )
         return interrupted
+
+    def _refine(self, start: Array) -> bool:
+        """Refine one design; return whether that was interrupted."""
+        outcome = refine(self._score, start, upper=self.space.upper, free=2 * self.space.satellites)
+        evaluation = self.evaluate(outcome.design[None])
+        violation, objective = evaluation.total_violation, evaluation.objectives
+        self._offer((float(violation[0]), float(objective[0]), outcome.design))
+        return outcome.interrupted
 
     def result(self, genetic_objective: float, *, interrupted: bool) -> SearchResult:
         if self._best is None:  # interrupted before the first generation

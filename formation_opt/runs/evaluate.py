@@ -24,16 +24,17 @@ def run(study: EvaluateStudy, setup: EvaluateSetup, options: Options) -> Outcome
         assess(setup.problem, states, label=label, names=names)
         for label, names, states in setup.compare
     )
+    cautions = scene_cautions(setup.observation)
     result = EvaluateResult(
         problem=setup.problem,
         critical_baseline=setup.critical_baseline,
         formation=formation,
         compare=compare,
-        warnings=(*scene_cautions(setup.observation), *findings(setup.problem, formation)),
+        warnings=(*cautions, *findings(setup.problem, formation)),
     )
     return Outcome(
         result=result,
-        summary=formation_summary((*compare, formation)),
+        summary=formation_summary((*compare, formation), cautions),
         evaluations=1 + len(compare),
         orbit=setup.orbit,
         observation=setup.observation,

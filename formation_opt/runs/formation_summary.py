@@ -13,12 +13,13 @@ from optimize import Assessment
 from .outcome import Summary
 
 
-def formation_summary(shown: Sequence[Assessment]) -> Summary:
+def formation_summary(shown: Sequence[Assessment], warnings: tuple[str, ...] = ()) -> Summary:
     """Height error, unwrapping and limits of each formation.
 
     Parameters
     ----------
     shown : the formations, the one that matters last.
+    warnings : of the scene.
     """
     rows = [
         (
@@ -36,7 +37,7 @@ def formation_summary(shown: Sequence[Assessment]) -> Summary:
             ("unwrapping probability", tuple(f"{u.probability.min():.4f}" for u in unwrapping))
         )
     rows.append(("limits", tuple(_limits(a) for a in shown)))
-    return Summary(tuple(a.label for a in shown), tuple(rows))
+    return Summary(tuple(a.label for a in shown), tuple(rows), warnings)
 
 
 def scene_cautions(observation: Observation | None) -> tuple[str, ...]:

@@ -44,6 +44,7 @@ def run(study: OptimizeStudy, setup: OptimizeSetup, options: Options) -> Outcome
             f"The search was interrupted after {found.evaluations} formations: this is the best so "
             "far, not the best there is.",
         )
+    cautions = scene_cautions(setup.observation)
     result = OptimizeResult(
         problem=setup.problem,
         critical_baseline=setup.critical_baseline,
@@ -55,11 +56,11 @@ def run(study: OptimizeStudy, setup: OptimizeSetup, options: Options) -> Outcome
         ),
         search=found,
         notices=tuple(notices),
-        warnings=(*scene_cautions(setup.observation), *findings(setup.problem, best)),
+        warnings=(*cautions, *findings(setup.problem, best)),
     )
     return Outcome(
         result=result,
-        summary=formation_summary((initial, best)),
+        summary=formation_summary((initial, best), cautions),
         evaluations=found.evaluations,
         seed=seed,
         orbit=setup.orbit,

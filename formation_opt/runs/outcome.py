@@ -36,10 +36,12 @@ class Summary(NamedTuple):
     ----------
     headings : of the columns, the one that matters last.
     rows : a label, and a value for each column.
+    warnings : what must be read before the numbers are believed.
     """
 
     headings: tuple[str, ...]
     rows: tuple[tuple[str, tuple[str, ...]], ...]
+    warnings: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -1,4 +1,4 @@
-"""Angles and moments as the terminal shows them."""
+"""Angles, frequencies and moments as the terminal shows them."""
 
 from __future__ import annotations
 
@@ -6,6 +6,9 @@ from datetime import datetime, timedelta
 
 import numpy as np
 from numpy.typing import NDArray
+
+ROUNDING = 1e-6
+"""Degrees and hertz below this are the rounding of the arithmetic."""
 
 
 def largest(values: NDArray[np.float64]) -> float:
@@ -17,7 +20,13 @@ def largest(values: NDArray[np.float64]) -> float:
 def largest_degrees(values: NDArray[np.float64]) -> str:
     """Largest magnitude of angles (S,) or of vectors (S, 3) [rad], in degrees."""
     magnitudes = np.linalg.norm(values, axis=-1) if values.ndim > 1 else values
-    return f"{np.degrees(largest(magnitudes)):.4g}"
+    degrees = np.degrees(largest(magnitudes))
+    return "0" if degrees < ROUNDING else f"{degrees:.4g}"
+
+
+def hertz(value: float) -> str:
+    """A frequency; zero where it is the rounding of the arithmetic."""
+    return "0 Hz" if value < ROUNDING else f"{value:.1f} Hz" if value < 100.0 else f"{value:.0f} Hz"
 
 
 def moment(time: datetime) -> str:

@@ -15,8 +15,10 @@ from insar.observe import (
     judge,
     select,
 )
+from insar.observe import Outcome as SolutionOutcome
 
 from .outcome import Options, Outcome, Summary
+from .shown import hertz, largest, largest_degrees
 
 
 def run(study: SteeringStudy, setup: SteeringSetup, options: Options) -> Outcome:
@@ -45,9 +47,9 @@ def run(study: SteeringStudy, setup: SteeringSetup, options: Options) -> Outcome
 
 
 def _summary(cases: tuple[CaseResult, ...]) -> Summary:
-    """Largest angles and residual Doppler of every law in every case."""
+    """Largest angles and Doppler of every law in every case, where it has a solution."""
     return Summary(
-        headings=("yaw", "pitch", "roll", "Doppler at the boresight", "over the swath"),
+        headings=("solved", "yaw", "pitch", "roll", "Doppler", "over swath"),
         rows=tuple(
             (f"{case.name}: {curves.law.value.replace('_', ' ')}", _largest(curves))
             for case in cases
@@ -57,12 +59,7 @@ def _summary(cases: tuple[CaseResult, ...]) -> Summary:
 
 
 def _largest(curves: LawCurves) -> tuple[str, ...]:
-    angles = (f"{np.rad2deg(_peak(a)):.3g}°" for a in (curves.yaw, curves.pitch, curves.roll))
-    doppler = (f"{_peak(f):.3g} Hz" for f in (curves.residual_doppler, curves.swath_doppler))
-    return (*angles, *doppler)
-
-
-def _peak(values: np.ndarray) -> float:
-    """Largest magnitude; NaN where a law has no solution anywhere."""
-    finite = np.abs(values[np.isfinite(values)])
-    return float(finite.max()) if finite.size else float("nan")
+    solved = f"{100.0 * np.mean(curves.outcome == SolutionOutcome.SOLVED):.3g} %"
+    angles = (f"{largest_degrees(a)}°" for a in (curves.yaw, curves.pitch, curves.roll))
+    doppler = (hertz(largest(f)) for f in (curves.residual_doppler, curves.swath_doppler))
+    return (solved, *angles, *doppler)
