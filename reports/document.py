@@ -132,13 +132,16 @@ class Figure:
     svg : the drawing.
     caption : what it shows.
     alt : the same in words, for those who do not see it.
-    interactive : a plotly figure shown beneath it in HTML; None for none.
+    interactive : a plotly figure shown beneath it in HTML, with its frames if it moves; None for
+        none.
+    instruction : what a reader can do with that one.
     """
 
     svg: bytes
     caption: Text
     alt: str
     interactive: dict[str, Any] | None = None
+    instruction: str = ""
 
 
 class Equation(NamedTuple):

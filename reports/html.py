@@ -164,7 +164,7 @@ class _Renderer:
             turnable = (
                 f'<div class="turn"><div class="interactive" id="interactive-{index}" role="img" '
                 f'aria-label="{escape(figure.alt)}"></div>'
-                "<p>The same orbits: drag to turn them, scroll to come closer.</p></div>"
+                f"<p>{escape(figure.instruction)}</p></div>"
             )
         return (
             f'<figure><div class="card scroll" tabindex="0" role="region" aria-label="Figure '

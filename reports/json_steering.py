@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from insar.observe import CaseResult, Compensation, LawCurves, Selection, SteeringResult
 
+from .json_claims import claims_json
 from .json_numbers import Json, finite, finite_list
 from .json_observation import boresight_json
 from .steering_words import solved, unsolved_reason
@@ -21,17 +22,7 @@ def steering_json(result: SteeringResult) -> Json:
             "cases": [_case(case) for case in result.cases],
             "selections": [_selection(one) for one in result.selections],
             "compensation": None if compensation is None else _compensation(compensation),
-            "claims": [
-                {
-                    "text": claim.text,
-                    "printed": claim.printed,
-                    "computed": finite(claim.computed),
-                    "unit": claim.unit,
-                    "verdict": claim.verdict.value,
-                    "note": claim.note,
-                }
-                for claim in result.claims
-            ],
+            "claims": claims_json(result.claims),
         },
         "warnings": list(result.warnings),
     }

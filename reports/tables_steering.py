@@ -33,6 +33,12 @@ def largest(values: Array) -> float:
     return float(finite.max()) if finite.size else math.nan
 
 
+def least(values: Array) -> float:
+    """Smallest value of those that are finite; NaN if there is none."""
+    finite = values[np.isfinite(values)]
+    return float(finite.min()) if finite.size else math.nan
+
+
 def rate_of(rates: Array) -> Array:
     """Magnitude of angular velocities (S, 3)."""
     return np.asarray(np.linalg.norm(rates, axis=-1))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from datetime import datetime, timedelta
 from typing import NamedTuple
 
 MISSING = "—"
@@ -199,6 +200,27 @@ def _hemisphere(degrees: float, decimals: int, names: str) -> str:
     if float(number) in (0.0, 180.0):
         return f"{float(number):.0f}°"
     return f"{number}° {names[0] if degrees > 0.0 else names[1]}"
+
+
+def sentences(texts: Sequence[str]) -> tuple[str, ...]:
+    """Texts that begin with a capital and end with a period.
+
+    >>> sentences(["the beam is lost; take care", "Known."])
+    ('The beam is lost; take care.', 'Known.')
+    """
+    return tuple(
+        f"{text[:1].upper()}{text[1:]}{'' if text.endswith('.') else '.'}" for text in texts
+    )
+
+
+def moment_text(moment: datetime) -> str:
+    """Moment to the nearest millisecond.
+
+    >>> moment_text(datetime(2016, 11, 25, 8, 9, 42, 999_994))
+    '2016-11-25 08:09:43.000'
+    """
+    rounded = moment + timedelta(microseconds=500)
+    return f"{rounded:%Y-%m-%d %H:%M:%S}.{rounded.microsecond // 1000:03d}"
 
 
 def power_of_ten(value: float) -> str:

@@ -12,7 +12,10 @@ from .study import Provenance, StudyInfo
 FORMATS = ("html", "pdf")
 """Formats that can be asked for; JSON and CSV are always written."""
 
-_SOMETIMES = ("segments.csv", "selection.csv", "compensation.csv", "claims.csv")
+_SOMETIMES = (
+    *("segments.csv", "selection.csv", "compensation.csv", "claims.csv"),
+    *("coverage.csv", "candidates.csv"),
+)
 """Tables that a study of the same kind may have, or not."""
 
 

@@ -383,6 +383,8 @@ def make_observation(
         ),
         orbit=Orbit.circular(altitude=514e3, inclination=1.7),
         epoch=EPOCH,
+        orbit_source="mean elements with J2",
+        orbit_epoch=EPOCH,
         side=LookSide.RIGHT,
         law=Law.YAW_PITCH,
         boresight=FixedIncidence(math.radians(32.5)),

@@ -8,11 +8,14 @@ from typing import Any, NamedTuple
 import pandas as pd
 
 from insar.observe import SteeringResult
+from insar.observe.agile.spotlight_results import SpotlightResult
+from insar.observe.agile.video_results import VideoResult
+from insar.observe.coverage.results import CoverageResult
 from optimize import EvaluateResult, OptimizeResult
 
 from ..document import Document
 from ..study import Provenance, StudyInfo
-from . import evaluate, optimize, steering
+from . import coverage, evaluate, optimize, spotlight, steering, video
 
 
 class Page(NamedTuple):
@@ -34,6 +37,9 @@ _PAGES: dict[type, Page] = {
     OptimizeResult: Page(optimize.document, optimize.json, optimize.csv),
     EvaluateResult: Page(evaluate.document, evaluate.json, evaluate.csv),
     SteeringResult: Page(steering.document, steering.json, steering.csv),
+    SpotlightResult: Page(spotlight.document, spotlight.json, spotlight.csv),
+    VideoResult: Page(video.document, video.json, video.csv),
+    CoverageResult: Page(coverage.document, coverage.json, coverage.csv),
 }
 
 

@@ -100,6 +100,7 @@ def formation_section(problem: Problem, formations: Sequence[Shown]) -> Section:
                 interactive=interactive_orbits(assessments, [b.ends for b in baselines], middle)
                 if index == 0
                 else None,
+                instruction="The same orbits: drag to turn them, scroll to come closer.",
             )
         )
     return Section("formation", "The formation", tuple(blocks))

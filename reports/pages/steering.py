@@ -18,11 +18,11 @@ from ..study import Provenance, StudyInfo
 from ..tables_steering import steering_tables
 from ..wording import fixed, joined, plain
 from . import sections
+from .claims import claims_section
 from .closing import closing_sections, facts
 from .steering_methods import steering_methods
 from .steering_sections import (
     attitude_section,
-    claims_section,
     doppler_section,
     rates_section,
     swath_section,
@@ -41,7 +41,7 @@ def document(result: SteeringResult, study: StudyInfo, provenance: Provenance) -
             "Result",
             (*steering_verdict(result), *sections.warning_blocks(result.warnings)),
         ),
-        claims_section(result.claims),
+        claims_section(result.claims, "stated inputs"),
         attitude_section(result.cases),
         rates_section(result.cases),
         doppler_section(result.cases),

@@ -1,4 +1,4 @@
-"""Sections on what steering laws do: claims, attitude, rates, Doppler."""
+"""Sections on what steering laws do: attitude, rates, Doppler."""
 
 from __future__ import annotations
 
@@ -8,59 +8,19 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from insar.observe import CaseResult, Claim, Verdict
+from insar.observe import CaseResult
 
 from ..document import Block, Column, Figure, Paragraph, Section, Status, Table
 from ..figures.steering import attitude_figure, boresight_figure, rates_figure, swath_figure
 from ..reading_steering import ROUNDING, steers
-from ..tables_steering import claims_frame, laws_frame
-from ..wording import MISSING, fixed, once, or_zero, plain, quantity, significant
+from ..tables_steering import laws_frame
+from ..wording import fixed, once, or_zero, plain
 from .steering_verdict import share_solved
 
 Array = NDArray[np.float64]
 
 _MOST_OFFSETS = 5
 """Elevations off the boresight that a table has columns for."""
-
-
-def claims_section(claims: Sequence[Claim]) -> Section | None:
-    """Printed figures and what their stated inputs give; None without any."""
-    if not claims:
-        return None
-    frame = claims_frame(claims)
-    frame["computed"] = [_with_unit(claim.computed, claim.unit) for claim in claims]
-    marks = {
-        Verdict.HOLDS: Status.NOTE,
-        Verdict.FAILS: Status.BAD,
-        Verdict.UNKNOWN: Status.WARNING,
-    }
-    symbols = {Verdict.HOLDS: "✓", Verdict.FAILS: "✗", Verdict.UNKNOWN: "?"}
-    frame["verdict"] = [f"{symbols[claim.verdict]} {claim.verdict.value}" for claim in claims]
-    return Section(
-        "claims",
-        "Printed figures and what the stated inputs give",
-        (
-            Table(
-                frame,
-                (
-                    Column("text", "Figure"),
-                    Column("printed", "Printed"),
-                    Column("computed", "From the stated inputs", "", list),
-                    Column("verdict", "Verdict"),
-                    Column("note", "Why"),
-                ),
-                "Each printed figure, the same quantity computed from the inputs that its source "
-                "states, and whether the one follows from the other.",
-                tuple(marks[claim.verdict] for claim in claims),
-            ),
-        ),
-    )
-
-
-def _with_unit(value: float, unit: str) -> str:
-    if not math.isfinite(value):
-        return MISSING
-    return f"{significant(value)}°" if unit == "°" else quantity(significant(value), unit)
 
 
 def attitude_section(cases: Sequence[CaseResult]) -> Section:

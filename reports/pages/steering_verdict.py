@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from insar.observe import CaseResult, Claim, Law, SteeringResult, Verdict
+from insar.observe import CaseResult, Law, SteeringResult, Verdict
 
 from ..document import Block, Callout, Metric, Metrics, Status, Strong, Text
 from ..reading_steering import ROUNDING, LawRecord, curves_of, exact_laws, records
 from ..steering_words import law_name, unsolved_reason
-from ..wording import MISSING, counted, fixed, frequency, joined, percent, plain
+from ..wording import MISSING, fixed, frequency, joined, percent, plain
+from .claims import claims_text
 
 
 def steering_verdict(result: SteeringResult) -> tuple[Block, ...]:
@@ -21,7 +22,7 @@ def steering_verdict(result: SteeringResult) -> tuple[Block, ...]:
         _at_boresight(found, exact, len(result.cases)),
         *_price(found, exact, result.cases),
         *_unsolved(result.cases),
-        *_claims(result.claims),
+        *claims_text(result.claims, "stated inputs"),
     ]
     doubtful = any(claim.verdict is not Verdict.HOLDS for claim in result.claims) or any(
         record.solved < 1.0 for record in found
@@ -128,19 +129,6 @@ def _unsolved(cases: Sequence[CaseResult]) -> tuple[Text, ...]:
     if not missing:
         return ()
     return ((Strong("No solution over part of the orbit: "), f"{'; '.join(missing)}."),)
-
-
-def _claims(claims: Sequence[Claim]) -> tuple[Text, ...]:
-    if not claims:
-        return ()
-    counts = {v: sum(claim.verdict is v for claim in claims) for v in Verdict}
-    text = f"{counts[Verdict.HOLDS]} of {counted(len(claims), 'printed figure')}"
-    tail = " follow from the stated inputs"
-    if counts[Verdict.FAILS]:
-        tail += f", {counts[Verdict.FAILS]} do not"
-    if counts[Verdict.UNKNOWN]:
-        tail += f", {counts[Verdict.UNKNOWN]} cannot be computed from them"
-    return ((Strong(text), f"{tail}: the next section gives each with its reason."),)
 
 
 def _metrics(result: SteeringResult, found: Sequence[LawRecord]) -> Metrics:

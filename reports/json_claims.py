@@ -1,0 +1,24 @@
+"""Printed figures and their verdicts, in results of any kind."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from insar.observe import Claim
+
+from .json_numbers import Json, finite
+
+
+def claims_json(claims: Sequence[Claim]) -> list[Json]:
+    """Printed figures and their verdicts."""
+    return [
+        {
+            "text": claim.text,
+            "printed": claim.printed,
+            "computed": finite(claim.computed),
+            "unit": claim.unit,
+            "verdict": claim.verdict.value,
+            "note": claim.note,
+        }
+        for claim in claims
+    ]

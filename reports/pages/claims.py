@@ -1,0 +1,75 @@
+"""Printed figures beside what the inputs of a study give."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from insar.observe import Claim, Verdict
+
+from ..document import Column, Section, Status, Strong, Table, Text
+from ..tables_steering import claims_frame
+from ..wording import MISSING, counted, quantity, significant
+
+_MARKS = {
+    Verdict.HOLDS: Status.NOTE,
+    Verdict.FAILS: Status.BAD,
+    Verdict.UNKNOWN: Status.WARNING,
+}
+_SYMBOLS = {Verdict.HOLDS: "✓", Verdict.FAILS: "✗", Verdict.UNKNOWN: "?"}
+
+
+def claims_section(claims: Sequence[Claim], inputs: str, *, digits: int = 3) -> Section | None:
+    """Table of printed figures; None without any.
+
+    Parameters
+    ----------
+    claims : judged.
+    inputs : which the figures are computed from, such as "stated inputs".
+    digits : significant, of what is computed.
+    """
+    if not claims:
+        return None
+    frame = claims_frame(claims)
+    frame["computed"] = [_with_unit(claim.computed, claim.unit, digits) for claim in claims]
+    frame["verdict"] = [f"{_SYMBOLS[claim.verdict]} {claim.verdict.value}" for claim in claims]
+    return Section(
+        "claims",
+        f"Printed figures and what the {inputs} give",
+        (
+            Table(
+                frame,
+                (
+                    Column("text", "Figure"),
+                    Column("printed", "Printed"),
+                    Column("computed", f"From the {inputs}", "", list),
+                    Column("verdict", "Verdict"),
+                    Column("note", "Why"),
+                ),
+                "Each printed figure, the same quantity computed from the "
+                f"{inputs}, and whether the one follows from the other.",
+                tuple(_MARKS[claim.verdict] for claim in claims),
+            ),
+        ),
+    )
+
+
+def _with_unit(value: float, unit: str, digits: int) -> str:
+    if not math.isfinite(value):
+        return MISSING
+    text = significant(value, digits)
+    return f"{text}{unit}" if unit.startswith("°") else quantity(text, unit)
+
+
+def claims_text(claims: Sequence[Claim], inputs: str) -> tuple[Text, ...]:
+    """How many of the printed figures follow from the inputs, for the verdict."""
+    if not claims:
+        return ()
+    counts = {v: sum(claim.verdict is v for claim in claims) for v in Verdict}
+    text = f"{counts[Verdict.HOLDS]} of {counted(len(claims), 'printed figure')}"
+    tail = f" follow from the {inputs}"
+    if counts[Verdict.FAILS]:
+        tail += f", {counts[Verdict.FAILS]} do not"
+    if counts[Verdict.UNKNOWN]:
+        tail += f", {counts[Verdict.UNKNOWN]} cannot be computed from them"
+    return ((Strong(text), f"{tail}: the next section gives each with its reason."),)
