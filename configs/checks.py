@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from formation import Orbit, drift_per_orbit, satellite_pairs
+from formation import Orbit, drift_per_orbit, mean_elements_at, satellite_pairs
 from formation.constants import EARTH_EQUATORIAL_RADIUS
 from formation.separation import NEGLIGIBLE_DRIFT
 
@@ -16,7 +16,7 @@ from .blocks import RadarBlock
 from .formations import ComparedFormation, RadialStart, Satellite
 from .messages import KeyPath, did_you_mean, show
 from .observation import ObservationBlock
-from .orbits import OrbitBlock
+from .orbits import OrbitBlock, build_trajectory
 from .scenes import SceneBlock, StripBlock, TableBlock, check_slope
 
 RESULT_LABELS = ("initial", "best", "formation")
@@ -29,6 +29,9 @@ _ALTITUDE_MARGIN = 0.97
 """Mountains, and an altitude counted from the equatorial radius, bring targets nearer by this."""
 
 _GRAZING = math.radians(89.0)
+
+_ELLIPSOID_DEG = 0.5
+"""What the flattening of the Earth and J2's shaking of the orbit add to an incidence."""
 
 
 def check_strip(strip: StripBlock, orbit: Orbit) -> None:
@@ -64,6 +67,38 @@ def check_observation(observation: ObservationBlock, orbit: OrbitBlock) -> None:
     check_placed(orbit)
     if observation.look_deg is not None:
         check_beam(observation.look_deg, orbit, ("scene", "observation", "look_deg"))
+        _check_look_in_strip(observation, observation.look_deg, orbit)
+
+
+def _check_look_in_strip(observation: ObservationBlock, look_deg: float, orbit: OrbitBlock) -> None:
+    """A look angle meets the ground within the strip, somewhere on the orbit."""
+    near, far = observation.near_incidence_deg, observation.far_incidence_deg
+    lowest, highest = _apsides(orbit)
+    sine = math.sin(math.radians(look_deg)) / EARTH_EQUATORIAL_RADIUS
+    low, high = (math.degrees(math.asin(min(1.0, radius * sine))) for radius in (lowest, highest))
+    if high + _ELLIPSOID_DEG < near or low - _ELLIPSOID_DEG > far:
+        least, most = (
+            math.degrees(math.asin(EARTH_EQUATORIAL_RADIUS / radius * math.sin(math.radians(edge))))
+            for radius, edge in ((highest, near), (lowest, far))
+        )
+        reached = f"{low:.1f}" if high - low < 0.1 else f"{low:.1f} to {high:.1f}"
+        raise wrong(
+            ("scene", "observation", "look_deg"),
+            f"meets the ground at an incidence of {reached} degrees, outside the strip, "
+            f"near_incidence_deg = {near:g} to far_incidence_deg = {far:g}",
+            f"choose a look angle from {least:.1f} to {most:.1f}, or widen the strip",
+        )
+
+
+def _apsides(orbit: OrbitBlock) -> tuple[float, float]:
+    """Distances of the mean perigee and apogee from the center of the Earth [m]."""
+    if orbit.source is None:
+        axis, eccentricity = orbit.semi_major_axis, orbit.eccentricity or 0.0
+    else:
+        trajectory = build_trajectory(orbit)
+        mean = mean_elements_at(trajectory, max(0.0, trajectory.span[0]))
+        axis, eccentricity = float(mean.semi_major_axis), float(mean.eccentricity)
+    return axis * (1.0 - eccentricity), axis * (1.0 + eccentricity)
 
 
 def check_placed(orbit: OrbitBlock) -> None:
@@ -76,18 +111,20 @@ def check_placed(orbit: OrbitBlock) -> None:
         )
 
 
-def check_beam(look_deg: float, orbit: OrbitBlock, at: KeyPath) -> None:
-    """A look angle meets the Earth at least from the perigee."""
+def check_beam(look_deg: float, orbit: OrbitBlock, at: KeyPath, *, case: str = "") -> None:
+    """A look angle meets the Earth at least from the perigee; of a case, which has this name."""
     if orbit.source is not None:
         return
     perigee = orbit.semi_major_axis * (1.0 - (orbit.eccentricity or 0.0))
     limit = math.degrees(math.asin(min(1.0, EARTH_EQUATORIAL_RADIUS / perigee)))
     if look_deg >= limit:
         altitude = (perigee - EARTH_EQUATORIAL_RADIUS) / 1e3
+        where = f" in the case {show(case)}" if case else ""
         raise wrong(
             at,
-            f"misses the Earth: from {altitude:g} km it must be below {limit:.2f}",
-            "choose a smaller look angle",
+            f"misses the Earth{where}: from {altitude:g} km it must be below {limit:.2f}",
+            "choose a smaller look angle"
+            + (", or give the case a boresight of its own" if case else ""),
         )
 
 

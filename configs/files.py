@@ -65,11 +65,15 @@ def _find(name: str, folder: Path) -> Path:
     except (OSError, ValueError) as error:
         raise _unreadable(error) from None
     if found is None:
+        beside = f"a file beside the study, in {printable(str(folder.resolve()))}"
+        # An area is no substitute for an orbit.
+        shipped = [each for each in shipped_files() if Path(each).suffix == Path(name).suffix]
         raise wrong(
             (),
-            f"is neither a file beside the study, in {printable(str(folder.resolve()))}, nor one "
-            f"that comes with formation-opt ({', '.join(shipped_files())})",
-            f"{did_you_mean(name, shipped_files())}write its path from the folder of the study",
+            f"is neither {beside}, nor one that comes with formation-opt ({', '.join(shipped)})"
+            if shipped
+            else f"is not {beside}",
+            f"{did_you_mean(name, shipped)}write its path from the folder of the study",
         )
     if not is_file:
         raise wrong((), "is no file but a folder or a device", "name a file")

@@ -141,7 +141,19 @@ class ObservationBlock(Block):
                 f"must be below far_incidence_deg, {self.far_incidence_deg:g}",
                 "check that the two are not swapped",
             )
+        self._check_strip()
         return self
+
+    def _check_strip(self) -> None:
+        """The boresight is within the strip; that of a look angle waits for the orbit."""
+        incidence, near, far = self.incidence_deg, self.near_incidence_deg, self.far_incidence_deg
+        if incidence is not None and not near <= incidence <= far:
+            raise wrong(
+                ("incidence_deg",),
+                f"lies outside the strip, near_incidence_deg = {near:g} to far_incidence_deg = "
+                f"{far:g}",
+                "choose an incidence within, or widen the strip",
+            )
 
     def _check_counts(self, targets: str) -> None:
         for key, homes in _ONLY_FOR.items():
@@ -154,10 +166,11 @@ class ObservationBlock(Block):
         if self.argument_of_latitude_deg is not None:
             first, last = self.argument_of_latitude_deg
             if not 0 < last - first <= 360:
+                turned = f"write [{first:g}, {last + 360:g}] to pass the ascending node"
                 raise wrong(
                     ("argument_of_latitude_deg",),
                     "must grow, by 360 at most",
-                    "write the place where the arc begins first; add 360 to the other",
+                    turned if 0 < last + 360 - first <= 360 else "begin the arc nearer to its end",
                 )
 
     def _check_boresight(self, targets: str) -> None:

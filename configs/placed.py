@@ -46,6 +46,11 @@ class PlacedTrajectory:
         return max(0.0, self.trajectory.span[0])
 
     @property
+    def source(self) -> str:
+        """What the orbit is known from."""
+        return self.trajectory.source
+
+    @property
     def perturbed(self) -> bool:
         """Whether the states contain the periodic terms of J2."""
         return self.trajectory.perturbed

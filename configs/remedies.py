@@ -58,6 +58,10 @@ def remedy(value: Any, key: str, schema: Schema) -> str:
     numeric = bool(kinds & {"number", "integer"})
     if value is None:
         return "give a value, or remove the key"
+    if kinds == {"boolean"}:
+        return "write true or false"
+    if {"string", "array"} <= kinds and isinstance(value, int | float | dict):
+        return "give its two lines, as text or as a list"
     if isinstance(value, list) and "array" in kinds:
         return "add or remove entries"
     if numeric and isinstance(value, bool | list | dict):

@@ -84,7 +84,7 @@ def describe(schema: Schema, key: str) -> str:
     schema : from `schema_at`.
     key : the key of the value, which ends in its unit.
     """
-    words = [_describe_one(choice, key) for choice in choices(schema)]
+    words = list(dict.fromkeys(_describe_one(choice, key) for choice in choices(schema)))
     if schema.get("default") is not None and len(words) < len(schema.get("anyOf", [])):
         words.append("null to switch it off")
     return ", or ".join(words)
@@ -98,6 +98,8 @@ def _describe_one(schema: Schema, key: str) -> str:
     kind = schema.get("type")
     if kind in ("number", "integer"):
         return _number(schema, key)
+    if kind == "boolean":
+        return "true or false"
     if kind == "string":
         return _text(schema)
     if kind == "array":

@@ -127,6 +127,21 @@ class SelectionBlock(Block):
             )
         lowest = EARTH_EQUATORIAL_RADIUS + 1e3 * low
         check_perigee(lowest, self.eccentricity, ("eccentricity",))
+        for position, inclination in enumerate(self.inclinations_deg):
+            if inclination in self.inclinations_deg[:position]:
+                raise wrong(
+                    ("inclinations_deg", position), "is listed twice", "list each inclination once"
+                )
+        # The beam must meet the Earth all around the orbit, from the apogee too.
+        apogee = lowest * (1.0 + self.eccentricity)
+        limit = math.degrees(math.asin(EARTH_EQUATORIAL_RADIUS / apogee))
+        if self.held == "look" and self.angle_deg >= limit:
+            raise wrong(
+                ("angle_deg",),
+                f"misses the Earth at all of the altitudes_km: from the lowest, {low:g} km, it "
+                f"must be below {limit:.2f}",
+                "choose a smaller look angle, or hold the incidence",
+            )
         return self
 
 

@@ -25,8 +25,10 @@ def check_cases(cases: Sequence[CaseBlock], boresight: BoresightBlock) -> None:
             raise wrong(("cases", index, "name"), "is used twice", "choose another name")
         look = (case.boresight or boresight).look_deg
         if look is not None:
-            at: KeyPath = () if case.boresight is None else ("cases", index)
-            check_beam(look, case.orbit, (*at, "boresight", "look_deg"))
+            shared = case.boresight is None
+            at: KeyPath = () if shared else ("cases", index)
+            named = case.name if shared else ""
+            check_beam(look, case.orbit, (*at, "boresight", "look_deg"), case=named)
 
 
 def check_samples(

@@ -132,8 +132,8 @@ def elements_from_states(states: States) -> Elements:
     Returns
     -------
     Elements, each (...); angles from 0 to 2π. Where they lose their meaning, the node of an
-    equatorial orbit lies on the x axis and the perigee of a circle at the node. NaN for a state
-    that is not on an ellipse.
+    equatorial orbit lies on the x axis, on one side or the other, and the perigee of a circle at
+    the node. NaN for a state that is not on an ellipse.
     """
     return elements_from_polar(polar_from_states(states))
 

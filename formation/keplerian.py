@@ -94,6 +94,11 @@ class KeplerianOrbit:
         """No limit."""
         return -math.inf, math.inf
 
+    @property
+    def source(self) -> str:
+        """Kind of the elements, and the forces."""
+        return f"{self.kind.value} elements{' with J2' if self.j2 else ', two bodies'}"
+
     @cached_property
     def mean(self) -> Elements:
         """Mean elements at the epoch; the elements themselves without J2."""

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .frames import Rotation, gcrs_to_itrs
 from .interpolation import interpolate
+from .oem_checks import check_distances, check_motion
 from .oem_header import Method, frame_to_gcrs, interpolation_method, tai_seconds, usable_interval
 from .oem_reader import Block, Instant, read_oem
 from .timescales import DAY, Moments, moments, utc_of
@@ -84,8 +85,9 @@ class Ephemeris:
         Raises
         ------
         ValueError
-            If the message is malformed, of several objects, in another frame or time system, or
-            has fewer lines than its interpolation needs; the line and the remedy are named.
+            If the message is malformed, of several objects, in another frame or time system, has
+            fewer lines than its interpolation needs, or states that are not those of a satellite;
+            the line and the remedy are named.
         """
         blocks = read_oem(text)
         _check_one_object(blocks)
@@ -101,6 +103,11 @@ class Ephemeris:
     def span(self) -> tuple[float, float]:
         """First and last time at which the message may be used [s]; gaps may lie between."""
         return self._pieces[0].first, max(piece.last for piece in self._pieces)
+
+    @property
+    def source(self) -> str:
+        """Kind of the orbit, and the satellite."""
+        return f"ephemeris of {self.name}"
 
     @property
     def perturbed(self) -> bool:
@@ -191,8 +198,10 @@ def _pieces(block: Block, epoch: datetime) -> list[_Piece]:
     zero = moments(epoch)
     origin = Instant(int(zero.day), float(zero.fraction) * DAY)
     nodes = np.array([instant.since(origin) for instant in block.times])
+    check_distances(block.position, block.lines)
     first, last = (instant.since(origin) for instant in usable_interval(block))
     method = interpolation_method(block)
+    to_gcrs = frame_to_gcrs(block)
     pieces = []
     for lines in np.split(np.arange(len(nodes)), _gaps(nodes) + 1):
         start, stop = max(first, nodes[lines[0]]), min(last, nodes[lines[-1]])
@@ -203,15 +212,21 @@ def _pieces(block: Block, epoch: datetime) -> list[_Piece]:
                 f"OEM line {block.line}: {len(lines)} lines without a gap follow, but the "
                 f"interpolation needs {method.points}; lower INTERPOLATION_DEGREE or add lines"
             )
+        states = States(block.position[lines], block.velocity[lines])
+        check_motion(
+            nodes[lines],
+            to_gcrs(moments(epoch, nodes[lines])).apply(states),
+            block.lines[lines[0] : lines[-1] + 1],
+        )
         pieces.append(
             _Piece(
                 first=start,
                 last=stop,
                 nodes=nodes[lines],
-                position=block.position[lines],
-                velocity=block.velocity[lines],
+                position=states.position,
+                velocity=states.velocity,
                 method=method,
-                to_gcrs=frame_to_gcrs(block),
+                to_gcrs=to_gcrs,
             )
         )
     if not pieces:

@@ -49,12 +49,14 @@ class Block:
     Attributes
     ----------
     line : number of the line at which the segment begins.
+    lines : number of the line of each state.
     header : what its header says, by keyword.
     times : moments of its lines, increasing.
     position, velocity : (N, 3) — in the frame of the header [m, m/s].
     """
 
     line: int
+    lines: tuple[int, ...]
     header: dict[str, str]
     times: tuple[Instant, ...]
     position: Array
@@ -71,6 +73,7 @@ class _Draft:
     """A segment while it is read."""
 
     line: int
+    lines: list[int] = field(default_factory=list)
     header: dict[str, str] = field(default_factory=dict)
     times: list[Instant] = field(default_factory=list)
     states: list[list[float]] = field(default_factory=list)
@@ -169,6 +172,7 @@ def _add_line(draft: _Draft, line: str, number: int) -> None:
     instant = _instant(epoch, draft.header["TIME_SYSTEM"], number)
     if draft.times and instant.since(draft.times[-1]) <= 0.0:
         _fail(number, f"epoch {epoch} is not after that of the line before; sort the lines")
+    draft.lines.append(number)
     draft.times.append(instant)
     draft.states.append(values)
 
@@ -195,6 +199,13 @@ def _instant(text: str, system: str, number: int) -> Instant:
             start = date(int(year), int(month), int(day)).toordinal()
     except ValueError:
         _fail(number, f"epoch {text!r} is no date of the calendar")
+    leap = (hour, minute) == ("23", "59")
+    if int(hour) > 23 or int(minute) > 59 or float(second) >= (61.0 if leap else 60.0):
+        _fail(
+            number,
+            f"epoch {text!r} is no time of the day: hours run to 23, minutes and seconds to 59; "
+            "correct it",
+        )
     mjd = start - MJD_EPOCH.toordinal()
     seconds = int(hour) * 3600.0 + int(minute) * 60.0 + float(second)
     if system == "UTC":
@@ -210,6 +221,7 @@ def _finished(draft: _Draft) -> Block:
     states = np.array(draft.states) * 1e3
     return Block(
         line=draft.line,
+        lines=tuple(draft.lines),
         header=draft.header,
         times=tuple(draft.times),
         position=states[:, :3],

@@ -10,14 +10,18 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .constants import EARTH_EQUATORIAL_RADIUS
 from .derivative import states_from_positions
 from .frames import Rotation, teme_to_gcrs, teme_to_itrs
+from .keplerian import LOWEST_PERIGEE
 from .timescales import DAY, MJD_EPOCH, MJD_ZERO, moments
 from .trajectory import States
 
 Array = NDArray[np.float64]
 
 _LINE_LENGTH: Final = 69
+_LOWEST: Final = EARTH_EQUATORIAL_RADIUS + LOWEST_PERIGEE
+_FARTHEST: Final = 4.0e8  # beyond the Moon [m]
 _DECAYED: Final = 6
 _REASONS: Final = {
     1: "the mean eccentricity leaves the range 0 to 1",
@@ -56,6 +60,10 @@ class TwoLineOrbit:
                 "two lines of one satellite"
             )
         object.__setattr__(self, "_satellite", _satellite(self.line1, self.line2))
+        perigee = float(self._satellite.altp) * EARTH_EQUATORIAL_RADIUS
+        if not perigee >= LOWEST_PERIGEE:
+            reason = f"the perigee is at a height of {perigee / 1e3:.0f} km, decayed"
+            raise ValueError(self._failure(reason, 0.0))
         self._teme(np.zeros(()))  # a satellite that has decayed says so here
 
     @classmethod
@@ -85,6 +93,12 @@ class TwoLineOrbit:
             If there are more or fewer lines, and as `from_lines` does.
         """
         lines = [line.rstrip() for line in text.splitlines() if line.strip()]
+        numbers = [line[2:7].strip() for line in lines if line.startswith("1 ")]
+        if len(numbers) > 1 and len(lines) > 3:
+            raise ValueError(
+                f"these are two-line elements of {len(numbers)} satellites or dates (catalog "
+                f"numbers {', '.join(numbers[:5])}); keep the lines of one"
+            )
         if len(lines) not in (2, 3):
             raise ValueError(
                 f"two-line elements have 2 lines, or 3 with the name first; found {len(lines)}; "
@@ -105,6 +119,13 @@ class TwoLineOrbit:
     def span(self) -> tuple[float, float]:
         """No limit, though the accuracy fades away from the epoch."""
         return -math.inf, math.inf
+
+    @property
+    def source(self) -> str:
+        """Kind of the orbit, and the satellite with its catalog number."""
+        number = self.line1[2:7].strip()
+        satellite = f"{self.name} ({number})" if self.name else f"satellite {number}"
+        return f"two-line elements of {satellite}"
 
     @property
     def perturbed(self) -> bool:
@@ -153,17 +174,36 @@ class TwoLineOrbit:
         )
         if np.any(codes):
             first = int(np.argmax(codes > 0))
-            raise ValueError(self._failure(int(codes[first]), float(times.ravel()[first])))
+            code = int(codes[first])
+            reason = _REASONS.get(code, f"SGP4 gives error {code}")
+            raise ValueError(self._failure(reason, float(times.ravel()[first])))
+        self._check_distances(position * 1e3, times.ravel())
         positions: Array = position.reshape(*times.shape, 3) * 1e3
         return positions
 
-    def _failure(self, code: int, time: float) -> str:
-        of = f"{self.name or 'satellite'} ({self.line1[2:7].strip()})"
-        reason = _REASONS.get(code, f"SGP4 gives error {code}")
-        return (
-            f"two-line elements of {of}, {time / DAY:+.2f} days from their epoch "
-            f"{self.epoch:%Y-%m-%d %H:%M}: {reason}; give elements of a date nearer to the study's"
+    def _check_distances(self, position: Array, times: Array) -> None:
+        """Refuse what SGP4 lets pass without an error."""
+        distance = np.linalg.norm(position, axis=-1)
+        # False for NaN.
+        near = (distance >= _LOWEST) & (distance <= _FARTHEST)
+        if not np.all(near):
+            first = int(np.argmin(near))
+            height = (distance[first] - EARTH_EQUATORIAL_RADIUS) / 1e3
+            reason = (
+                f"SGP4 takes it to a height of {height:.0f} km, where it has decayed"
+                if distance[first] < _LOWEST
+                else f"SGP4 takes it to a height of {height:.3g} km, away from the Earth"
+            )
+            raise ValueError(self._failure(reason, float(times[first])))
+
+    def _failure(self, reason: str, time: float) -> str:
+        days = round(time / DAY, 2)
+        when, remedy = (
+            (f"{days:+.2f} days from their epoch", "give elements of a date nearer to the study's")
+            if days
+            else ("at their epoch", "they are damaged or of a lost satellite, give others")
         )
+        return f"{self.source}, {when} {self.epoch:%Y-%m-%d %H:%M}: {reason}; {remedy}"
 
 
 def _satellite(line1: str, line2: str) -> Any:

@@ -41,6 +41,11 @@ class Trajectory(Protocol):
         ...
 
     @property
+    def source(self) -> str:
+        """What the orbit is known from, in a few words for reports."""
+        ...
+
+    @property
     def perturbed(self) -> bool:
         """Whether the states contain the periodic terms of J2, as those of a real orbit do."""
         ...

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from datetime import UTC, datetime
+from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +12,7 @@ import yaml
 
 from configs import BuildError, OptimizeStudy, StudyError, effective_text, example_text, load_study
 from configs.build import build_optimize
+from configs.orbits import OrbitBlock, build_trajectory
 from insar import LookSide
 from insar.observe import FixedIncidence, FixedLook, Law, Reference
 
@@ -194,13 +195,33 @@ WRONG = {
         "argument_of_latitude_deg: [350, 10]\nlook_deg: 30\nside: left",
         "[350, 10]",
         "scene.observation.argument_of_latitude_deg = [350, 10] must grow, by 360 at most; write "
-        "the place where the arc begins first; add 360 to the other",
+        "[350, 370] to pass the ascending node",
     ),
     "beam into the sky": (
         POINTS + "\nlook_deg: 75",
         "75\n",
         "scene.observation.look_deg = 75 misses the Earth: from 506.625 km it must be below 67.88; "
         "choose a smaller look angle",
+    ),
+    "incidence outside the strip": (
+        BAND.replace("35", "70"),
+        "70\n",
+        "scene.observation.incidence_deg = 70 lies outside the strip, near_incidence_deg = 20 to "
+        "far_incidence_deg = 55; choose an incidence within, or widen the strip",
+    ),
+    "look angle outside the strip": (
+        POINTS + "\nlook_deg: 60",
+        "60\n",
+        "scene.observation.look_deg = 60 meets the ground at an incidence of 69.2 to 69.5 degrees, "
+        "outside the strip, near_incidence_deg = 20 to far_incidence_deg = 55; choose a look angle "
+        "from 18.4 to 49.4, or widen the strip",
+    ),
+    "look angle short of the strip": (
+        POINTS + "\nlook_deg: 10\nnear_incidence_deg: 30",
+        "10\n",
+        "scene.observation.look_deg = 10 meets the ground at an incidence of 10.8 degrees, outside "
+        "the strip, near_incidence_deg = 30 to far_incidence_deg = 55; choose a look angle from "
+        "27.5 to 49.4, or widen the strip",
     ),
 }
 
@@ -243,8 +264,11 @@ def test_a_target_that_is_never_seen_says_why(refused):
 def test_a_pass_that_there_is_not_is_blamed(refused):
     text = observing(POINTS + "\npass_number: 99")
     shown = refused(text)
-    assert shown.startswith(placed(text, "99\n", "scene.observation.pass_number = 99 cannot be "))
-    assert "passes" in shown
+    says = (
+        "scene.observation.pass_number = 99 cannot be used: the search finds 5 passes; take 1 to "
+        "5, or search longer"
+    )
+    assert shown == placed(text, "99\n", says)
 
 
 GEOJSON = {
@@ -257,6 +281,13 @@ GEOJSON = {
     "another reference system": (
         '{"type": "Polygon", "crs": {"properties": {"name": "EPSG:32633"}}, "coordinates": []}',
         "the reference system (crs) is",
+    ),
+    "longitudes from 0 to 360": (
+        '{"type": "Polygon", "coordinates": [[[179, 0], [181, 0], [181, 1], [179, 0]]]}',
+        "[181, 0] is no longitude (±180°) and latitude (±90°); longitudes beyond 180° are counted "
+        "from the other side: subtract 360°, and cut a polygon that crosses the date line at ±180° "
+        "into a MultiPolygon (RFC 7946), e.g. ogr2ogr -wrapdateline -t_srs EPSG:4326 out.geojson "
+        "in.geojson",
     ),
     "date line": (
         '{"type": "Polygon", "coordinates": [[[179, 0], [-179, 0], [-179, 1], [179, 0]]]}',
@@ -280,3 +311,60 @@ def test_a_file_that_is_no_area_is_named_with_its_key(refused, tmp_path, case):
     )
     assert says in shown
     assert "\n" not in shown
+
+
+def test_an_area_that_is_missing_names_both_places(refused, tmp_path):
+    text = observing("geojson_file: etma.geojson\nside: right")
+    assert refused(text) == placed(
+        text,
+        "etma.geojson",
+        "scene.observation.geojson_file = 'etma.geojson' is neither a file beside the study, in "
+        f"{tmp_path}, nor one that comes with formation-opt (etna.geojson); did you mean "
+        "'etna.geojson'? write its path from the folder of the study",
+    )
+
+
+def oem_with_gap():
+    """A day of the example's orbit without its lines from 04:00 to 06:00."""
+    orbit = build_trajectory(OrbitBlock.model_validate(yaml.safe_load(ORBIT)["orbit"]))
+    minutes = np.concatenate([np.arange(0, 240), np.arange(360, 1440)])
+    rows = np.hstack(orbit.inertial(60.0 * minutes)) / 1e3
+    header = {
+        "OBJECT_NAME": "X",
+        "OBJECT_ID": "2026-001A",
+        "CENTER_NAME": "EARTH",
+        "REF_FRAME": "GCRF",
+        "TIME_SYSTEM": "UTC",
+        "START_TIME": "2026-03-20T12:00:00",
+        "STOP_TIME": "2026-03-21T11:59:00",
+    }
+    lines = [f"{key} = {value}" for key, value in header.items()]
+    lines = ["CCSDS_OEM_VERS = 2.0", "META_START", *lines, "META_STOP"]
+    for minute, row in zip(minutes, rows, strict=True):
+        moment = orbit.epoch + timedelta(minutes=int(minute))
+        lines.append(f"{moment:%Y-%m-%dT%H:%M:%S} {' '.join(f'{value:.9f}' for value in row)}")
+    return "\n".join(lines) + "\n"
+
+
+def test_a_gap_in_the_search_says_with_which_keys_to_avoid_it(refused, tmp_path):
+    (tmp_path / "gap.oem").write_text(oem_with_gap(), encoding="utf-8")
+    text = observing(POINTS, orbit="orbit: {oem_file: gap.oem}\n\n")
+    shown = refused(text)
+    assert shown.startswith(
+        placed(text, "gap.oem", "orbit.oem_file = 'gap.oem' cannot be used: 2026-03-20T1")
+    )
+    assert shown.endswith(
+        "lies in a gap from 2026-03-20T15:59:00Z to 2026-03-20T18:00:00Z of the ephemeris of X; "
+        "choose other times, or a message that covers them, or search another time, by start and "
+        "search_days of scene.observation"
+    )
+
+
+def test_a_search_between_the_gaps_succeeds(study, tmp_path):
+    """The pass of the next morning, which a search from the epoch on does not reach."""
+    (tmp_path / "gap.oem").write_text(oem_with_gap(), encoding="utf-8")
+    keys = POINTS + "\nfar_incidence_deg: 80\nnear_incidence_deg: 5\nstart: 2026-03-20T19:00"
+    text = observing(keys, orbit="orbit: {oem_file: gap.oem}\n\n")
+    seen = build_optimize(study(text).study).observation
+    assert seen.orbit_source == "ephemeris of X"
+    assert seen.orbit_epoch == datetime(2026, 3, 20, 12, tzinfo=UTC)

@@ -304,6 +304,17 @@ REFUSED = {
         "orbit.inclination_deg is missing; add a number from 0 to 180 degrees (Angle between the "
         "orbit and the equator; above 90 retrograde)",
     ),
+    "number for two lines": (
+        "orbit: {tle: 31698}\n",
+        "31698",
+        "orbit.tle = 31698 must be text such as '1 25544U 98067A ...', or a list of 2 to 3 "
+        "entries, each text of at most 100 characters; give its two lines, as text or as a list",
+    ),
+    "maybe J2": (
+        "orbit: {altitude_km: 514, inclination_deg: 97, j2: maybe}\n",
+        "maybe",
+        "orbit.j2 = 'maybe' must be true or false; write true or false",
+    ),
     "two sizes": (
         "orbit: {altitude_km: 514, inclination_deg: 97, semi_major_axis_km: 6900}\n",
         "6900",
@@ -460,19 +471,19 @@ def test_a_gap_in_an_ephemeris_blames_the_file(study):
     assert str(error.value).startswith("cases[#1].orbit.oem_file cannot be used: ")
 
 
-def test_a_file_that_is_missing_names_both_places(study, tmp_path):
+def test_a_file_that_is_missing_names_where_it_was_looked_for(study, tmp_path):
+    """No area is offered for an orbit."""
     with pytest.raises(StudyError) as error:
         study(with_orbit("orbit: {tle_file: sub/sat.tle}\n"))
     assert str(error.value) == (
-        f"my.yaml:14:19: orbit.tle_file = 'sub/sat.tle' is neither a file beside the study, in "
-        f"{tmp_path}, nor one that comes with formation-opt (etna.geojson); write its path from "
-        "the folder of the study"
+        f"my.yaml:14:19: orbit.tle_file = 'sub/sat.tle' is not a file beside the study, in "
+        f"{tmp_path}; write its path from the folder of the study"
     )
 
 
 def test_a_block_without_a_study_looks_for_files_here(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    with pytest.raises(ValidationError, match="is neither a file beside the study"):
+    with pytest.raises(ValidationError, match="is not a file beside the study"):
         OrbitBlock.model_validate({"tle_file": "sat.tle"})
     Path("sat.tle").write_text("\n".join(TLE), encoding="utf-8")
     assert OrbitBlock.model_validate({"tle_file": "sat.tle"}).tle_file.name == "sat.tle"

@@ -309,7 +309,7 @@ WRONG = {
         "  far_incidence_deg: 50 ",
         "spotlight:                #",
         "spotlight cannot be used: the aim point is not imaged from 2016-06-30 23:50:00 UTC to "
-        "2016-07-01 00:18:48 UTC: the nearest of 1 passes sees it at incidence 63.39°, outside "
+        "2016-07-01 00:18:48 UTC: the nearest of 1 pass sees it at incidence 63.39°, outside "
         "20.00° to 50.00°, too near to the horizon; search longer",
     ),
     "wrong side": (
@@ -318,7 +318,7 @@ WRONG = {
         "  side: right ",
         "spotlight:                #",
         "spotlight cannot be used: the aim point is not imaged from 2016-06-30 23:50:00 UTC to "
-        "2016-07-01 00:18:48 UTC: it is in reach 1 times, but on the left of the flight direction; "
+        "2016-07-01 00:18:48 UTC: it is in reach once, but on the left of the flight direction; "
         "look left, to either side, or search longer",
     ),
     "pass that there is not": (
@@ -326,8 +326,8 @@ WRONG = {
         "  search_days: 0.02 ",
         "  pass_number: 3\n  search_days: 0.02 ",
         "3\n",
-        "spotlight.pass_number = 3 cannot be used: number = 3 but the aim point can be imaged on 1 "
-        "passes in the searched time; take one of them, or search longer",
+        "spotlight.pass_number = 3 cannot be used: the aim point can be imaged on 1 pass in the "
+        "searched time; take it, or search longer",
     ),
     "scene of a formation above no place": (
         SCENE,
@@ -352,8 +352,7 @@ WRONG = {
         "    search_days: 11 ",
         "    pass_number: 99\n    search_days: 11 ",
         "99",
-        "scene.spotlight.pass_number = 99 cannot be used: number = 99 but the aim point can be "
-        "imaged on",
+        "scene.spotlight.pass_number = 99 cannot be used: the aim point can be imaged on",
     ),
     "scene in layover": (
         SCENE,

@@ -191,15 +191,15 @@ WRONG = {
         "  side: left ",
         "video:",
         "video cannot be used: the aim point is not imaged from 2016-11-25 08:00:00 UTC to "
-        "2016-11-25 08:28:48 UTC: it is in reach 1 times, but on the right of the flight "
+        "2016-11-25 08:28:48 UTC: it is in reach once, but on the right of the flight "
         "direction; look right, to either side, or search longer",
     ),
     "pass that there is not": (
         "  search_days: 0.02\n",
         "  search_days: 0.02\n  pass_number: 2\n",
         "2\n  duration",
-        "video.pass_number = 2 cannot be used: number = 2 but the aim point can be imaged on 1 "
-        "passes in the searched time; take one of them, or search longer",
+        "video.pass_number = 2 cannot be used: the aim point can be imaged on 1 pass in the "
+        "searched time; take it, or search longer",
     ),
     "beamwidth in radians": (
         "azimuth_beamwidth_deg: 0.4",

@@ -7,14 +7,17 @@ import json
 import re
 import subprocess
 import sys
+from datetime import UTC, datetime
 from pathlib import Path
 from types import ModuleType
 from typing import Any
 
+import numpy as np
 import pytest
 import yaml
 
-from configs import json_schema
+from configs import example_text, json_schema, load_study
+from formation import KeplerianOrbit
 from formation_opt import __version__
 
 ROOT = Path(__file__).parent.parent
@@ -105,6 +108,51 @@ def test_relative_links_resolve(page):
         if not file.exists() or (anchor and anchor not in anchors(file)):
             broken.append(target)
     assert not broken
+
+
+# -- parts of studies ----------------------------------------------------------------------------
+
+
+def snippets(page: Path) -> list[str]:
+    return re.findall(r"^```yaml\n(.*?)^```", page.read_text("utf-8"), re.DOTALL | re.MULTILINE)
+
+
+@pytest.mark.parametrize("name", ["observing.md", "orbits.md"])
+def test_parts_of_studies_are_what_a_study_may_say(name, tmp_path):
+    """Each replaces its block in an example; files that are not shipped are beside the study."""
+    example = yaml.safe_load(example_text("three_sat_real"))
+    inline = yaml.safe_load(snippets(ROOT / "docs" / "orbits.md")[1])
+    (tmp_path / "satellite.tle").write_text(inline["orbit"]["tle"], "utf-8")
+    (tmp_path / "satellite.oem").write_text(oem(), "utf-8")
+    parts = snippets(ROOT / "docs" / name)
+    assert len(parts) == 4
+    for part in parts:
+        study = tmp_path / "part.yaml"
+        study.write_text(yaml.safe_dump(example | yaml.safe_load(part)), "utf-8")
+        assert load_study(study).study.name == "three_sat_real"
+
+
+def oem() -> str:
+    """An ephemeris of 20 minutes."""
+    orbit = KeplerianOrbit.circular(
+        altitude=514e3, inclination=1.7, epoch=datetime(2026, 3, 1, tzinfo=UTC)
+    )
+    times = 60.0 * np.arange(20)
+    header = {
+        "OBJECT_NAME": "X",
+        "OBJECT_ID": "2026-001A",
+        "CENTER_NAME": "EARTH",
+        "REF_FRAME": "GCRF",
+        "TIME_SYSTEM": "UTC",
+        "START_TIME": "2026-03-01T00:00:00",
+        "STOP_TIME": "2026-03-01T00:19:00",
+    }
+    keys = "".join(f"{key} = {value}\n" for key, value in header.items())
+    lines = "".join(
+        f"2026-03-01T00:{minute:02}:00 {' '.join(f'{value:.9f}' for value in row)}\n"
+        for minute, row in enumerate(np.hstack(orbit.inertial(times)) / 1e3)
+    )
+    return f"CCSDS_OEM_VERS = 2.0\nMETA_START\n{keys}META_STOP\n{lines}"
 
 
 # -- examples ------------------------------------------------------------------------------------

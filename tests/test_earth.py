@@ -302,3 +302,8 @@ def test_edges_in_the_wrong_order_are_refused():
     plane = zero_doppler_plane(states, side=LookSide.LEFT)
     with pytest.raises(ValueError, match=r"near edge = 0.7 rad must be below .*; exchange them"):
         swath(states.position, plane, near=FixedIncidence(0.7), far=FixedIncidence(0.5))
+
+
+def test_latitudes_beyond_the_poles_are_refused():
+    with pytest.raises(ValueError, match=r"latitude = 37\.75 rad must lie within ±π/2; give rad"):
+        from_geodetic(latitude=37.75, longitude=0.2)

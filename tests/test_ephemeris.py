@@ -12,6 +12,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from formation import ElementKind, Elements, Ephemeris, KeplerianOrbit, States
+from formation.elements import elements_from_states
 from formation.frames import gcrs_to_itrs, teme_to_gcrs, true_of_date_to_gcrs
 from formation.timescales import moments
 
@@ -304,3 +305,114 @@ FIRST = "2026-03-01T00:00:00.000000"
 def test_damage_is_located(text, message):
     with pytest.raises(ValueError, match=message):
         Ephemeris.from_oem(text)
+
+
+# -- states of no satellite ----------------------------------------------------------------------
+
+
+def rows(text):
+    return text.splitlines(keepends=True)
+
+
+def changed(text, line, change):
+    """A message with other numbers in one line, numbered from 1."""
+    lines_ = rows(text)
+    epoch, *numbers = lines_[line - 1].split()
+    values = change(np.array([float(value) for value in numbers]))
+    lines_[line - 1] = f"{epoch} {' '.join(f'{value:.9f}' for value in values)}\n"
+    return "".join(lines_)
+
+
+def slip(kilometers):
+    return lambda values: values + np.array([0.0, kilometers, 0.0, 0.0, 0.0, 0.0])
+
+
+@pytest.mark.parametrize("frame", ["GCRF", "ITRF", "TEME"])
+@pytest.mark.parametrize("line", [13, 20, 38])
+def test_a_slip_of_one_coordinate_is_found_in_its_line(frame, line):
+    times = np.arange(0.0, 3001.0, STEP)
+    states = ORBIT.inertial(times) if frame == "GCRF" else in_frame(frame)(times)
+    text = HEADER + header(0.0, 3000.0, REF_FRAME=frame) + lines(states, times)
+    Ephemeris.from_oem(changed(text, line, slip(0.5)))  # below 0.1 km + 5 m/s · 120 s
+    first, second = (13, 14) if line == 13 else (line - 1, line)
+    with pytest.raises(ValueError, match="OEM line") as error:
+        Ephemeris.from_oem(changed(text, line, slip(5.0)))
+    assert str(error.value) == (
+        f"OEM line {line}: the position is 5 km from where the velocities of lines {first} and "
+        f"{second} lead, and 0.8 km are allowed; correct the line, or begin a new segment after a "
+        "maneuver"
+    )
+
+
+def test_a_maneuver_is_no_slip():
+    """One of 5 m/s, with a line missing in the middle of it: a new ellipse from there on."""
+    before = np.arange(0.0, 1201.0, STEP)
+    states = ORBIT.inertial(1260.0)
+    along = states.velocity / np.linalg.norm(states.velocity)
+    axes = ORBIT.axes
+    pushed = States(states.position @ axes, (states.velocity + 5.0 * along) @ axes)
+    after = np.arange(1320.0, 3001.0, STEP)
+    other = KeplerianOrbit(
+        elements=elements_from_states(pushed), epoch=EPOCH, kind=ElementKind.OSCULATING
+    )
+    flown = [ORBIT.inertial(before), other.inertial(after - 1260.0)]
+    joined = States(*(np.concatenate(pair) for pair in zip(*flown, strict=True)))
+    text = header(0.0, 3000.0) + lines(joined, np.concatenate([before, after]))
+    assert Ephemeris.from_oem(HEADER + text).span == (0.0, 3000.0)
+
+
+@pytest.mark.parametrize(
+    ("scale", "message"),
+    [
+        ((1e3, 1e3), "OEM line 13: the position is 6.8.*e.06 km from the center of the Earth, and"),
+        ((1e-3, 1e-3), "OEM line 13: the position is 6.8.* km from the center of the Earth, and"),
+        (
+            (1.0, 1e3),
+            r"OEM line 13: from here on .* move at 7.\d+ km/s, but the velocities are 7\d+",
+        ),
+        (
+            (1.0, -1.0),
+            "OEM line 13: from here on the positions move at .* or point elsewhere; give",
+        ),
+    ],
+)
+def test_other_units_are_recognized(scale, message):
+    times = np.arange(0.0, 3001.0, STEP)
+    states = ORBIT.inertial(times)
+    other = States(states.position * scale[0], states.velocity * scale[1])
+    with pytest.raises(ValueError, match=message):
+        Ephemeris.from_oem(HEADER + header(0.0, 3000.0) + lines(other, times))
+
+
+def test_inertial_velocities_in_a_turning_frame_are_refused():
+    times = np.arange(0.0, 3001.0, STEP)
+    fixed, inertial = ORBIT.earth_fixed(times), ORBIT.inertial(times)
+    turn = gcrs_to_itrs(moments(EPOCH, times)).matrix
+    mixed = States(fixed.position, np.einsum("sij,sj->si", turn, inertial.velocity))
+    text = HEADER + header(0.0, 3000.0, REF_FRAME="ITRF") + lines(mixed, times)
+    with pytest.raises(ValueError, match="give km and km/s, the velocities as seen in REF_FRAME"):
+        Ephemeris.from_oem(text)
+
+
+@pytest.mark.parametrize("eccentricity", [0.0, 0.1, 0.5, 0.9])
+@pytest.mark.parametrize("step", [0.1, 1.0, 30.0, 300.0, 900.0])
+def test_true_orbits_pass_whatever_their_shape_and_step(eccentricity, step):
+    """The remainder of the corrected trapezoid is bounded, with J2, from perigee to apogee."""
+    elements = Elements(6.6e6 / (1.0 - eccentricity), eccentricity, 1.2, 0.3, 1.5, -0.4)
+    orbit = KeplerianOrbit(elements=elements, epoch=EPOCH)
+    times = np.arange(0.0, 60.5 * step, step)
+    text = HEADER + header(0.0, 60 * step) + lines(orbit.inertial(times), times)
+    assert Ephemeris.from_oem(text).name == "SAR 1"
+
+
+@pytest.mark.parametrize(
+    "clock", ["25:00:00", "24:00:00", "12:60:00", "00:65:00", "12:00:60", "23:59:61"]
+)
+def test_times_of_no_day_are_refused(clock):
+    text = GOOD.replace(f"{FIRST} ", f"2026-03-01T{clock} ")
+    with pytest.raises(ValueError, match="OEM line") as error:
+        Ephemeris.from_oem(text)
+    assert str(error.value) == (
+        f"OEM line 13: epoch '2026-03-01T{clock}' is no time of the day: hours run to 23, minutes "
+        "and seconds to 59; correct it"
+    )

@@ -59,6 +59,7 @@ class Simple:
     last: float = np.inf
 
     epoch = EPOCH
+    source = "a circle"
     perturbed = False
 
     @property
@@ -569,6 +570,15 @@ def test_an_ephemeris_is_searched_in_its_span(orbit):
         seen(ephemeris, SUMMIT, start=30 * DAY, stop=31 * DAY)
 
 
+def test_a_search_that_the_orbit_cuts_short_advises_no_longer_one():
+    short = Simple(SIMPLE.altitude, SIMPLE.inclination, first=0.0, last=600.0)
+    with pytest.raises(
+        ValueError,
+        match=r"take an ephemeris that reaches farther \(the search was cut to its span\)",
+    ):
+        seen(short, SUMMIT)
+
+
 def test_the_start_counts():
     first = seen(SIMPLE, SUMMIT)
     later = seen(SIMPLE, SUMMIT, start=times_of(first, SIMPLE)[0] + 1.0)
@@ -616,7 +626,7 @@ def test_a_target_beyond_the_orbit_is_said_to_be_so():
     with pytest.raises(
         ValueError,
         match=r"the target is not seen from 2025-06-21 00:00:00 UTC to 2025-06-22 00:00:00 UTC "
-        r"\(1 days\) by a radar that looks right at incidences of 20.00° to 55.00°: the beam never "
+        r"\(1 day\) by a radar that looks right at incidences of 20.00° to 55.00°: the beam never "
         r"passes over a target in view; the satellite itself reaches latitudes of ±10\.\d\d°",
     ):
         seen(flat, SUMMIT, stop=DAY)
@@ -703,6 +713,18 @@ def test_a_stretch_of_the_orbit_has_the_wanted_arguments_of_latitude(argument):
     rate = np.sqrt(EARTH_GRAVITATIONAL_PARAMETER / (6378137.0 + 514e3) ** 3)
     assert_allclose(np.exp(1j * rate * times[0]), np.exp(1j * argument[0]), atol=2e-9)
     assert_allclose(times[-1] - times[0], (argument[1] - argument[0]) / rate, atol=1e-5)
+
+
+@pytest.mark.parametrize("latitude", [0.0, 1.2])
+def test_an_arc_that_begins_where_the_satellite_is_at_its_epoch_begins_then(latitude):
+    orbit = KeplerianOrbit.circular(
+        altitude=514e3, inclination=1.7, epoch=EPOCH, argument_of_latitude=latitude, j2=False
+    )
+    observation = swept(
+        orbit, argument_of_latitude=(latitude, latitude + 0.5), reference=Reference.AS_OBSERVED
+    )
+    # Polar motion moves the node by 10 m, 1.4 ms.
+    assert abs(observation.epoch - EPOCH) < timedelta(milliseconds=10)
 
 
 def test_one_segment_is_the_middle():

@@ -417,7 +417,7 @@ def test_damaged_lines_are_refused(lines, message):
         TwoLineOrbit.from_lines(*lines)
 
 
-@pytest.mark.parametrize("text", ["", LINES[0], "\n".join(LINES * 2)])
+@pytest.mark.parametrize("text", ["", LINES[0]])
 def test_text_of_another_number_of_lines_is_refused(text):
     with pytest.raises(ValueError, match="have 2 lines, or 3 with the name first; found"):
         TwoLineOrbit.from_text(text)
@@ -489,3 +489,35 @@ def test_an_orbit_of_two_bodies_keeps_its_elements():
         found = mean_elements_at(orbit, time)
         assert found.semi_major_axis == pytest.approx(orbit.elements.semi_major_axis, abs=1e-3)
         assert found.eccentricity == pytest.approx(0.003, abs=1e-9)
+
+
+# -- source --------------------------------------------------------------------------------------
+
+
+def test_sources_in_words():
+    epoch = datetime(2026, 3, 1, tzinfo=UTC)
+    circle = {"altitude": 514e3, "inclination": 1.7, "epoch": epoch}
+    assert KeplerianOrbit.circular(**circle).source == "mean elements with J2"
+    elements = Elements(6.9e6, 0.01, 1.7, 0.0, 0.0, 0.0)
+    osculating = KeplerianOrbit(
+        elements=elements, epoch=epoch, kind=ElementKind.OSCULATING, j2=False
+    )
+    assert osculating.source == "osculating elements, two bodies"
+    assert TwoLineOrbit.from_lines(*LINES).source == "two-line elements of satellite 25544"
+    named = TwoLineOrbit.from_lines(*LINES, name="SAR 1")
+    assert named.source == "two-line elements of SAR 1 (25544)"
+
+
+def test_two_line_elements_that_dip_into_the_earth_say_so():
+    line = LINES[1][:26] + "9500000" + LINES[1][33:68]
+    with pytest.raises(
+        ValueError, match=r"at their epoch .*: the perigee is at a height of -\d+ km, decayed; they"
+    ):
+        TwoLineOrbit.from_lines(LINES[0], line + str(_checksum(line)))
+
+
+def test_two_satellites_in_one_text_are_counted():
+    with pytest.raises(
+        ValueError, match=r"of 2 satellites or dates \(catalog numbers 25544, 25544\); keep"
+    ):
+        TwoLineOrbit.from_text("\n".join(("A", *LINES, "B", *LINES)))

@@ -259,7 +259,13 @@ def test_a_law_without_a_solution_somewhere_is_not_computable():
     # 0.1° of look angle is less than the pitch that the orbit needs at most, 0.17°.
     case = assess_case(zhao_case("LEO", boresight=FixedLook(math.radians(0.1))))
     assert np.isfinite(case.of(Law.YAW_PITCH).yaw).any()
-    assert judge(claim_of(ZHAO["claims"][0]), cases=(case,)).verdict is Verdict.UNKNOWN
+    found = judge(claim_of(ZHAO["claims"][0]), cases=(case,))
+    assert found.verdict is Verdict.UNKNOWN
+    count = np.count_nonzero(np.isnan(case.of(Law.YAW_PITCH).yaw))
+    assert found.note.startswith(
+        f"The law yaw-pitch has no solution in {count} of {len(case.case.times)} samples of the "
+        "orbit: the pitch that it needs exceeds the boresight's angle from nadir."
+    )
 
 
 @pytest.mark.parametrize(
@@ -368,6 +374,9 @@ def test_no_crossover_in_range_is_not_computable():
     found = judge(claim, selections=(low,))
     assert found.verdict is Verdict.UNKNOWN
     assert math.isnan(found.computed)
+    assert found.note.startswith(
+        "The steering angles do not cross from 500 to 2000 km: yaw-pitch has the smaller one."
+    )
 
 
 @given(

@@ -806,6 +806,10 @@ def test_orbit_that_ends_within_the_film_says_so():
             return self.orbit.epoch
 
         @property
+        def source(self):
+            return self.orbit.source
+
+        @property
         def perturbed(self):
             return self.orbit.perturbed
 

@@ -26,7 +26,7 @@ def largest_degrees(values: NDArray[np.float64]) -> str:
 
 def hertz(value: float) -> str:
     """A frequency; zero where it is the rounding of the arithmetic."""
-    return "0 Hz" if value < ROUNDING else f"{value:.1f} Hz" if value < 100.0 else f"{value:.0f} Hz"
+    return "0 Hz" if value < ROUNDING else f"{value:.3g} Hz" if value < 100.0 else f"{value:.0f} Hz"
 
 
 def moment(time: datetime) -> str:

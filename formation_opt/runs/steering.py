@@ -16,6 +16,7 @@ from insar.observe import (
     select,
 )
 from insar.observe import Outcome as SolutionOutcome
+from insar.observe.studies.cautions import cautions
 
 from .outcome import Options, Outcome, Summary
 from .shown import hertz, largest, largest_degrees
@@ -41,7 +42,7 @@ def run(study: SteeringStudy, setup: SteeringSetup, options: Options) -> Outcome
             judge(claim, cases=cases, selections=selections, compensation=compensation)
             for claim in setup.claims
         ),
-        warnings=(),
+        warnings=cautions(cases),
     )
     return Outcome(result=result, summary=_summary(cases))
 

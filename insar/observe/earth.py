@@ -127,7 +127,16 @@ def from_geodetic(
     Returns
     -------
     (..., 3) — Earth-fixed [m].
+
+    Raises
+    ------
+    ValueError
+        If a latitude lies beyond the poles, as one in degrees does.
     """
+    beyond = np.abs(np.asarray(latitude, dtype=np.float64)) > np.pi / 2 + 1e-12
+    if np.any(beyond):
+        worst = float(np.asarray(latitude)[beyond].flat[0])
+        raise ValueError(f"latitude = {worst!r} rad must lie within ±π/2; give radians")
     with np.errstate(invalid="ignore"):
         position: Array = erfa.gd2gce(
             ellipsoid.semi_major_axis, ellipsoid.flattening, longitude, latitude, height

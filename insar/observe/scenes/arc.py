@@ -29,6 +29,9 @@ Quantity = Callable[[States], Array]
 STEPS_PER_REVOLUTION: Final = 240
 _ROUNDING = 1e-9
 """Forgiven in a whole turn of the argument of latitude [rad]."""
+_AT_THE_START = 1e-5
+"""Argument of latitude by which polar motion and rounding displace a satellite at its epoch, with a
+margin of six [rad]; 70 m in low orbit."""
 _SHORTEST = 1e-3
 """Duration below which a stretch of the orbit is rounding [s]."""
 
@@ -171,8 +174,8 @@ def _latitude_arcs(
         raise ValueError(
             f"the boresight does not sweep latitudes {math.degrees(low):.2f}° to "
             f"{math.degrees(high):.2f}° from edge to edge (direction: {direction.value}) from "
-            f"{utc(trajectory, window.start)} to {utc(trajectory, window.stop)}; {reached}: search "
-            "longer, or choose a band within"
+            f"{utc(trajectory, window.start)} to {utc(trajectory, window.stop)}; {reached}: "
+            f"{window.longer}, or choose a band within"
         )
     return arcs
 
@@ -222,6 +225,7 @@ def _orbit_arcs(
 ) -> list[_Arc]:
     """Stretches of the orbit between two arguments of latitude."""
     first, last = (_upward_passages(trajectory, window, value) for value in argument)
+    first = _with_start(trajectory, window, argument[0], first)
     # A whole turn begins and ends at the same argument, found twice to within rounding.
     following = np.searchsorted(last, first + _SHORTEST)
     arcs = [
@@ -234,10 +238,25 @@ def _orbit_arcs(
         raise ValueError(
             f"the satellite does not fly from argument of latitude {degrees[0]:.2f}° to "
             f"{degrees[1]:.2f}° between {utc(trajectory, window.start)} and "
-            f"{utc(trajectory, window.stop)}; search longer: a revolution takes "
+            f"{utc(trajectory, window.stop)}; {window.longer}: a revolution takes "
             f"{window.period / 60.0:.1f} min"
         )
     return arcs
+
+
+def _with_start(trajectory: Trajectory, window: Window, value: float, times: Array) -> Array:
+    """Times of an argument of latitude (C,), and the start of the window if that is one of them.
+
+    A satellite that is put there at the epoch is there but for rounding and polar motion, before
+    or after the first sample of the search.
+    """
+    states = trajectory.earth_fixed(window.start)
+    past = float(orbit_geometry(states).argument_of_latitude) - value
+    if abs(math.remainder(past, math.tau)) > _AT_THE_START or np.any(
+        times - window.start < window.period / 2.0
+    ):
+        return times
+    return np.concatenate([[window.start], times])
 
 
 def _upward_passages(trajectory: Trajectory, window: Window, value: float) -> Array:

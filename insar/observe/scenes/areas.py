@@ -27,6 +27,12 @@ _REPROJECT = (
     "reproject the area, e.g. ogr2ogr -t_srs EPSG:4326 -lco RFC7946=YES out.geojson in.geojson"
 )
 
+_WRAP = (
+    "longitudes beyond 180° are counted from the other side: subtract 360°, and cut a polygon that "
+    "crosses the date line at ±180° into a MultiPolygon (RFC 7946), e.g. ogr2ogr -wrapdateline "
+    "-t_srs EPSG:4326 out.geojson in.geojson"
+)
+
 
 def read_area(text: str) -> tuple[Polygon, ...]:
     """Polygons of a GeoJSON text, dissolved where they overlap.
@@ -157,12 +163,12 @@ def _position(value: Any, place: str) -> tuple[float, float]:
         raise ValueError(f"{place} = {value!r} is no position; give [longitude, latitude]")
     longitude, latitude = (float(number) for number in numeric)
     if abs(longitude) > 180.0 or abs(latitude) > 90.0:
-        swapped = abs(longitude) <= 90.0 and abs(latitude) <= 180.0
-        remedy = (
-            "put the longitude first"
-            if swapped
-            else f"these are coordinates of a map projection; {_REPROJECT}"
-        )
+        if abs(longitude) <= 90.0 and abs(latitude) <= 180.0:
+            remedy = "put the longitude first"
+        elif abs(longitude) <= 360.0 and abs(latitude) <= 90.0:
+            remedy = _WRAP
+        else:
+            remedy = f"these are coordinates of a map projection; {_REPROJECT}"
         raise ValueError(
             f"{place} = [{longitude:g}, {latitude:g}] is no longitude (±180°) and latitude (±90°); "
             f"{remedy}"

@@ -107,6 +107,8 @@ def record(
         scene=_scene(recording, seen, referred),
         orbit=reference_orbit(trajectory, first),
         epoch=moment(trajectory, first),
+        orbit_source=trajectory.source,
+        orbit_epoch=trajectory.epoch,
         side=strip.side,
         law=strip.law,
         boresight=strip.boresight,

@@ -3,14 +3,51 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from datetime import timedelta
+from datetime import datetime, timedelta
+from typing import Protocol
 
 from formation.earth_orientation import Coverage, orientation_coverage, orientation_span
 
+from ...scene import Scene
 from .observation import Observation
 
 NEARLY_CIRCULAR = 0.005
-"""Eccentricity above which relative motion about a circle is off by more than half a percent."""
+"""Eccentricity up to which relative motion about a circle is right to 1.5 % of its size."""
+
+FRESH_TWO_LINES = timedelta(days=14)
+"""Age up to which two-line elements place a satellite to 40 km, 5 s of flight."""
+
+FRESH_ELEMENTS = timedelta(days=365)
+"""Age up to which Keplerian elements, which leave out drag, are taken without a word."""
+
+
+class Flown(Protocol):
+    """What is seen from an orbit, of targets or of one place."""
+
+    @property
+    def scene(self) -> Scene:
+        """The segments, in order of time."""
+        ...
+
+    @property
+    def epoch(self) -> datetime:
+        """UTC of the scene's time zero."""
+        ...
+
+    @property
+    def orbit_source(self) -> str:
+        """What the orbit is known from."""
+        ...
+
+    @property
+    def orbit_epoch(self) -> datetime:
+        """UTC of its elements."""
+        ...
+
+    @property
+    def eccentricity(self) -> float:
+        """Mean eccentricity of the orbit."""
+        ...
 
 
 def cautions(observation: Observation) -> tuple[str, ...]:
@@ -20,10 +57,21 @@ def cautions(observation: Observation) -> tuple[str, ...]:
     ----------
     observation : of a formation study.
     """
-    return tuple(_cautions(observation))
+    return (*_of_targets(observation), *orbit_cautions(observation))
 
 
-def _cautions(observation: Observation) -> Iterator[str]:
+def orbit_cautions(flown: Flown) -> tuple[str, ...]:
+    """Warnings of the orbit alone, one sentence or two each.
+
+    Parameters
+    ----------
+    flown : what is seen from the orbit.
+    """
+    return tuple(_of_orbit(flown))
+
+
+def _of_targets(observation: Observation) -> Iterator[str]:
+    """Warning of targets that are not seen."""
     missed = len(observation.missed_reasons)
     if missed:
         total = missed + len(observation.scene)
@@ -31,11 +79,15 @@ def _cautions(observation: Observation) -> Iterator[str]:
             f"The pass sees {len(observation.scene)} of {total} targets: the height error is that "
             "of these. Widen the strip's incidences, or choose another pass or side."
         )
+
+
+def _of_orbit(observation: Flown) -> Iterator[str]:
+    yield from _of_age(observation)
     if observation.eccentricity > NEARLY_CIRCULAR:
         yield (
             f"The orbit has an eccentricity of {observation.eccentricity:.3g}, and the satellites "
-            "move about a circle: relative positions are wrong by about "
-            f"{100 * observation.eccentricity:.2g} % of their size."
+            "move about a circle: relative positions, right at the epoch, are wrong by up to "
+            f"{300 * observation.eccentricity:.2g} % of their size within a revolution."
         )
     last = observation.epoch + timedelta(seconds=float(observation.scene.times[-1]))
     if orientation_coverage(observation.epoch, last) is Coverage.HELD:
@@ -45,4 +97,22 @@ def _cautions(observation: Observation) -> Iterator[str]:
             f"{span.last_predicted:%Y-%m-%d}, and the pass is on {observation.epoch:%Y-%m-%d}: the "
             "ground track may be off by 0.1 km within a year and 1 km within five. A newer "
             "astropy-iers-data mends it."
+        )
+
+
+def _of_age(observation: Flown) -> Iterator[str]:
+    """Warnings of elements that are far from the date of the pass."""
+    age, source = observation.epoch - observation.orbit_epoch, observation.orbit_source
+    far = f"The pass is {abs(age).days} days {'after' if age > timedelta(0) else 'before'}"
+    if source.startswith("two-line elements") and abs(age) > FRESH_TWO_LINES:
+        yield (
+            f"{far} the epoch of the {source}: the satellite may be {abs(age).days} to "
+            f"{3 * abs(age).days} km from there along its orbit, and more if it maneuvers. Take "
+            "elements of a date nearer to the pass."
+        )
+    if "elements" in source and not source.startswith("two-line") and abs(age) > FRESH_ELEMENTS:
+        yield (
+            f"{far} the epoch of the {source}: drag is left out, so that a low satellite will be "
+            "elsewhere on its orbit, and on another pass, unless it is kept on station. Give "
+            "elements of a date nearer to the pass."
         )

@@ -39,6 +39,8 @@ class Observation:
     scene : the segments, in order of time.
     orbit : circular reference orbit for the relative motion: mean semi-major axis and inclination.
     epoch : UTC of the scene's time zero, the epoch of the formation's states.
+    orbit_source : what the orbit is known from, in a few words.
+    orbit_epoch : UTC of its elements, or of the beginning of its ephemeris.
     side, law, boresight, reference : how it is observed; the boresight as resolved for the pass.
     eccentricity : scalar — mean, of the orbit.
     ascending : whether the satellite flies northward.
@@ -58,6 +60,8 @@ class Observation:
     scene: Scene
     orbit: Orbit
     epoch: datetime
+    orbit_source: str
+    orbit_epoch: datetime
     side: LookSide
     law: Law
     boresight: Boresight

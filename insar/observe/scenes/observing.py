@@ -29,7 +29,7 @@ from .passes import (
 )
 from .reasons import never_seen, why_missed
 from .targets import Targets
-from .windows import search_window
+from .windows import Window, search_window
 
 Array = NDArray[np.float64]
 
@@ -106,12 +106,13 @@ def observe(
         raise ValueError(
             never_seen(trajectory, targets, found, strip=strip, direction=direction, window=window)
         )
-    index = _choose(passes, number)
+    index = _choose(passes, number, window)
     chosen = passes[index]
     position, times = targets.position[chosen.target], chosen.time
     if boresight is None:
         strip = _aimed(trajectory, position, times, strip, window.period)
         times = nearest_crossings(trajectory, position, strip.forward, times, period=window.period)
+    kept = np.isfinite(times)  # a beam that is turned towards the others may miss one at the rim
     return record(
         Recording(
             trajectory=trajectory,
@@ -121,22 +122,23 @@ def observe(
             reference=reference,
             window=window,
         ),
-        targets.subset(chosen.target),
-        times,
+        targets.subset(chosen.target[kept]),
+        times[kept],
         passes=len(passes),
         number=index + 1,
-        missed=_missed(targets, found, chosen, strip, window.period),
+        missed=_missed(targets, found, chosen.where(kept), strip, window.period),
     )
 
 
-def _choose(passes: tuple[Crossings, ...], number: int | None) -> int:
+def _choose(passes: tuple[Crossings, ...], number: int | None, window: Window) -> int:
     """Index of the pass of a number, or of the first that sees most targets."""
     if number is None:
         return int(np.argmax([len(each.target) for each in passes]))
     if not 1 <= number <= len(passes):
         raise ValueError(
-            f"number = {number!r}: the search finds {len(passes)} passes; take 1 to {len(passes)}, "
-            "or search longer"
+            f"number = {number!r}: the search finds {len(passes)} "
+            f"pass{'' if len(passes) == 1 else 'es'}; take "
+            f"{'that' if len(passes) == 1 else f'1 to {len(passes)}'}, or {window.longer}"
         )
     return number - 1
 

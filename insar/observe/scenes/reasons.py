@@ -69,15 +69,14 @@ def never_seen(
     sightings : of the whole search.
     strip, direction, window : what was searched.
     """
-    days = (window.stop - window.start) / 86400.0
     subject = "the target is not" if len(targets) == 1 else f"none of the {len(targets)} targets is"
     heading = "" if direction is Direction.EITHER else f" while {direction.value}"
     return (
         f"{subject} seen from {utc(trajectory, window.start)} to {utc(trajectory, window.stop)} "
-        f"({days:.3g} days) by a radar that looks {_name(strip.side)}{heading} at incidences of "
+        f"({window.days}) by a radar that looks {_name(strip.side)}{heading} at incidences of "
         f"{_degrees(strip.near_incidence)} to {_degrees(strip.far_incidence)}: "
         + (
-            _nearest_miss(trajectory, targets, sightings, strip)
+            _nearest_miss(trajectory, targets, sightings, strip, window)
             if len(sightings.time)
             else _out_of_view(trajectory, window)
         )
@@ -89,12 +88,16 @@ def _out_of_view(trajectory: Trajectory, window: Window) -> str:
     reach = float(np.max(np.abs(to_geodetic(states.position).latitude)))
     return (
         "the beam never passes over a target in view; the satellite itself reaches latitudes of "
-        f"±{_degrees(reach)}; search longer, or change the orbit"
+        f"±{_degrees(reach)}; {window.longer}, or change the orbit"
     )
 
 
 def _nearest_miss(
-    trajectory: Trajectory, targets: Targets, sightings: Sightings, strip: Strip
+    trajectory: Trajectory,
+    targets: Targets,
+    sightings: Sightings,
+    strip: Strip,
+    window: Window,
 ) -> str:
     """What the search came nearest to, and what would let the radar see it."""
     unwanted = sightings.in_reach & sightings.on_side
@@ -102,14 +105,14 @@ def _nearest_miss(
         return f"{_count(unwanted)} flown in the other direction; take either direction"
     opposite = sightings.in_reach & sightings.wanted
     if np.any(opposite):
-        return f"{_count(opposite)} on the {_other(strip.side)}; look there, or search longer"
+        return f"{_count(opposite)} on the {_other(strip.side)}; look there, or {window.longer}"
     away = np.abs(sightings.incidence - (strip.near_incidence + strip.far_incidence) / 2)
     best = int(np.argmin(np.where(sightings.wanted & sightings.on_side, away, away + math.pi)))
     side = strip.side if sightings.on_side[best] else LookSide(-strip.side)
     return (
         f"the nearest miss is {_place(targets, int(sightings.target[best]))} at incidence "
         f"{_degrees(sightings.incidence[best])} on the {_name(side)}, "
-        f"{utc(trajectory, sightings.time[best])}; search longer, or let the strip reach farther"
+        f"{utc(trajectory, sightings.time[best])}; {window.longer}, or let the strip reach farther"
     )
 
 

@@ -21,11 +21,26 @@ class Window(NamedTuple):
     ----------
     start, stop : scalars [s].
     period : scalar — of a revolution [s].
+    cut : whether more was asked for, and the orbit is not known for longer.
     """
 
     start: float
     stop: float
     period: float
+    cut: bool = False
+
+    @property
+    def longer(self) -> str:
+        """Advice to search longer, as far as that can help."""
+        if self.cut:
+            return "take an ephemeris that reaches farther (the search was cut to its span)"
+        return "search longer"
+
+    @property
+    def days(self) -> str:
+        """Length in words."""
+        number = f"{(self.stop - self.start) / 86_400.0:.3g}"
+        return f"{number} day{'' if number == '1' else 's'}"
 
 
 def search_window(trajectory: Trajectory, start: float, stop: float) -> Window:
@@ -54,7 +69,7 @@ def search_window(trajectory: Trajectory, start: float, stop: float) -> Window:
             f"the searched time, {wanted}, lies outside that of the orbit, {known}; "
             "move the search, or take an ephemeris that covers it"
         )
-    return Window(first, last, reference_orbit(trajectory, first).period)
+    return Window(first, last, reference_orbit(trajectory, first).period, cut=last < stop)
 
 
 def window_around(

@@ -10,7 +10,8 @@ from enum import StrEnum
 import numpy as np
 from numpy.typing import NDArray
 
-from ..steering import Law
+from ..steering import Law, Outcome
+from .claim_reasons import why_no_crossover, why_outside, why_unsolved
 from .compensation import deviation
 from .results import (
     CaseResult,
@@ -154,7 +155,7 @@ def judge(
     Returns
     -------
     Claim — not computable if a law has no solution somewhere on the orbit, or if the steering
-    angles do not cross in the selection's range.
+    angles do not cross in the selection's range; its note then says why.
 
     Raises
     ------
@@ -169,14 +170,36 @@ def judge(
         raise ValueError(f"the claim {claim.text!r} needs a compensation; add one to the study")
     else:
         value = _of_compensation(claim, compensation)
+    note = claim.note
+    if math.isnan(value):
+        reason = _reason(claim, cases, selections, compensation)
+        note = f"{reason} {note}".strip()
     return Claim(
         text=claim.text,
         printed=claim.printed,
         computed=value / claim.scale,
         unit=claim.unit,
         verdict=verdict(value, claim.value, relation=claim.relation, tolerance=claim.tolerance),
-        note=claim.note,
+        note=note,
     )
+
+
+def _reason(
+    claim: ClaimSpec,
+    cases: Sequence[CaseResult],
+    selections: Sequence[Selection],
+    compensation: Compensation | None,
+) -> str:
+    """Why a claim cannot be computed."""
+    if claim.quantity in _OF_LAW:
+        used = [_curves(claim, cases, law) for law in (claim.law, claim.other_law) if law]
+        unsolved = [curves for curves in used if np.any(curves.outcome != Outcome.SOLVED)]
+        return why_unsolved((unsolved or used)[0])
+    if claim.quantity is Quantity.CROSSOVER_ALTITUDE:
+        return why_no_crossover(*_selected(claim, selections))
+    if compensation is None or claim.eccentricity is None:
+        return ""
+    return why_outside(claim.eccentricity, compensation)
 
 
 def verdict(computed: float, printed: float, *, relation: Relation, tolerance: float) -> Verdict:
@@ -266,11 +289,17 @@ def _curves(claim: ClaimSpec, cases: Sequence[CaseResult], law: Law | None) -> L
 
 def _crossover(claim: ClaimSpec, selections: Sequence[Selection]) -> float:
     """Crossover nearest to the printed one; NaN if there is none."""
+    selection, row = _selected(claim, selections)
+    found = selection.crossovers[row]
+    return min(found, key=lambda altitude: abs(altitude - claim.value), default=math.nan)
+
+
+def _selected(claim: ClaimSpec, selections: Sequence[Selection]) -> tuple[Selection, int]:
+    """Selection that a claim is about, and the row of its inclination."""
     for selection in selections:
-        for inclination, found in zip(selection.inclinations, selection.crossovers, strict=True):
+        for row, inclination in enumerate(selection.inclinations):
             if selection.held is claim.held and _same(inclination, claim.inclination):
-                nearest = sorted(found, key=lambda altitude: abs(altitude - claim.value))
-                return nearest[0] if nearest else math.nan
+                return selection, row
     raise ValueError(
         f"no selection has what the claim {claim.text!r} is about: held = {claim.held!r}, "
         f"inclination = {claim.inclination!r} rad; add it to the study"
