@@ -17,6 +17,7 @@ from formation import (
     space_circular,
 )
 from insar.observe import Observation
+from insar.observe.agile.staring import StaringScene
 from optimize import DesignSpace, GeneticSettings, Problem, SearchSettings
 
 from .domain import build_problem
@@ -87,7 +88,7 @@ class OptimizeSetup(NamedTuple):
     compare: tuple[NamedStates, ...]
     critical_baseline: float
     orbit: Orbit
-    observation: Observation | None
+    observation: Observation | StaringScene | None
 
 
 class EvaluateSetup(NamedTuple):
@@ -110,7 +111,7 @@ class EvaluateSetup(NamedTuple):
     compare: tuple[NamedStates, ...]
     critical_baseline: float
     orbit: Orbit
-    observation: Observation | None
+    observation: Observation | StaringScene | None
 
 
 def build_optimize(study: OptimizeStudy) -> OptimizeSetup:

@@ -11,11 +11,12 @@ from formation import Orbit
 from formation.constants import EARTH_EQUATORIAL_RADIUS
 from insar import LookSide, Scene
 from insar.observe import Boresight, FixedIncidence, FixedLook, Law, Observation, Reference
+from insar.observe.agile.staring import StaringScene
 from insar.observe.scenes.observing import observe, observe_arc
 from insar.observe.scenes.passes import Direction
 from insar.observe.scenes.targets import Targets
 
-from .messages import KeyPath
+from .messages import BuildError, KeyPath, show_path
 from .observation import ObservationBlock, SideName
 from .placed import DAY, PlacedTrajectory, placed_trajectory, refusal
 from .scenes import StripBlock, TableBlock
@@ -34,13 +35,13 @@ class View(NamedTuple):
     ----------
     scene : the segments.
     orbit : the circular reference orbit.
-    observation : where the scene comes from; None if the study gives it, or if the beam stays on
-        one place.
+    observation : where the scene comes from: a pass over targets, or one place that the beam stays
+        on; None if the study gives it.
     """
 
     scene: Scene
     orbit: Orbit
-    observation: Observation | None
+    observation: Observation | StaringScene | None
 
 
 def build_view(study: FormationStudy) -> View:
@@ -65,7 +66,7 @@ def build_view(study: FormationStudy) -> View:
         observation = _observation(given, trajectory, wavelength)
         return View(observation.scene, observation.orbit, observation)
     staring = build_staring_scene(given, trajectory, wavelength)
-    return View(staring.scene, staring.orbit, None)
+    return View(staring.scene, staring.orbit, staring)
 
 
 def _strip(strip: StripBlock, orbit: Orbit) -> Scene:
@@ -101,9 +102,14 @@ def _observation(
         if targets is None:
             return _arc(block, trajectory, start, wavelength)
         return _pass(block, trajectory, targets, start, wavelength)
+    except BuildError as error:
+        remedy = f"search another time, by start and search_days of {show_path(_AT)}"
+        raise BuildError(error.at, f"{error.text}, or {remedy}") from None
     except ValueError as error:
-        at = (*_AT, "pass_number") if str(error).startswith("number = ") else _AT
-        raise refusal(at, error) from None
+        name, _, text = str(error).partition(": ")
+        if name.startswith("number = "):
+            raise refusal((*_AT, "pass_number"), ValueError(text)) from None
+        raise refusal(_AT, error) from None
 
 
 def _pass(

@@ -11,9 +11,9 @@ from insar import LookSide
 from insar.observe import Relation
 from insar.observe.agile.spotlight import spotlight
 from insar.observe.agile.spotlight_claims import SpotlightClaim, SpotlightQuantity
-from insar.observe.agile.spotlight_plan import aim_point, plan_spotlight
-from insar.observe.agile.spotlight_results import Agility, SpotlightRequest, SpotlightScene
-from insar.observe.agile.staring import staring_scene
+from insar.observe.agile.spotlight_plan import plan_spotlight
+from insar.observe.agile.spotlight_results import Agility, SpotlightRequest
+from insar.observe.agile.staring import StaringScene, staring_scene
 from insar.observe.agile.video import video
 from insar.observe.agile.video_results import VideoRequest, YawLaw
 from insar.observe.scenes.passes import Direction
@@ -161,7 +161,7 @@ def build_video(study: VideoStudy) -> VideoSetup:
 
 def build_staring_scene(
     block: SpotlightSceneBlock | VideoSceneBlock, trajectory: PlacedTrajectory, wavelength: float
-) -> SpotlightScene:
+) -> StaringScene:
     """Build the scene of a formation that watches one place.
 
     Parameters
@@ -183,9 +183,8 @@ def build_staring_scene(
             request = _aim(block, trajectory, wavelength, _ANY_RESOLUTION)
         plan = plan_spotlight(request)
         return staring_scene(
-            trajectory,
-            aim_point(request),
-            time=plan.time,
+            request,
+            plan,
             duration=(
                 block.duration_s if isinstance(block, VideoSceneBlock) else plan.imaging_time
             ),
@@ -265,5 +264,7 @@ def _claim(block: SpotlightClaimBlock) -> SpotlightClaim:
 
 def _unseen(at: KeyPath, error: ValueError) -> BuildError:
     """Error of a pass that is not there, at the key to blame."""
-    key = ("pass_number",) if str(error).startswith("number = ") else ()
-    return refusal((*at, *key), error)
+    name, _, text = str(error).partition(": ")
+    if name.startswith("number = "):
+        return refusal((*at, "pass_number"), ValueError(text))
+    return refusal(at, error)

@@ -152,10 +152,11 @@ class Equation(NamedTuple):
 
 
 class CodeListing(NamedTuple):
-    """A listing, word for word."""
+    """A listing, word for word; `printed` is whether it takes up pages of the PDF too."""
 
     text: str
     caption: str
+    printed: bool = True
 
 
 class Reference(NamedTuple):

@@ -16,6 +16,8 @@ def claims_json(claims: Sequence[Claim]) -> list[Json]:
             "text": claim.text,
             "printed": claim.printed,
             "computed": finite(claim.computed),
+            "agrees_from": finite(claim.least),
+            "agrees_to": finite(claim.most),
             "unit": claim.unit,
             "verdict": claim.verdict.value,
             "note": claim.note,

@@ -64,10 +64,17 @@ def _document(document: Document, root: Path) -> dict[str, Any]:
         "description": document.description,
         "producer": document.producer,
         "sections": [
-            {"title": section.title, "blocks": [_block(block, root) for block in section.blocks]}
+            {
+                "title": section.title,
+                "blocks": [_block(block, root) for block in section.blocks if _is_printed(block)],
+            }
             for section in document.sections
         ],
     }
+
+
+def _is_printed(block: Block) -> bool:
+    return not isinstance(block, CodeListing) or block.printed
 
 
 def _block(block: Block, root: Path) -> dict[str, Any]:

@@ -14,6 +14,7 @@ from insar.observe.agile.spotlight_results import (
     SpotlightRequest,
     SpotlightResult,
 )
+from insar.observe.agile.staring import StaringScene
 from insar.observe.agile.video_footprint import horizontal_axes
 from insar.observe.agile.video_results import StaringProfile, VideoRequest, VideoResult
 from insar.observe.earth import from_geodetic, to_geodetic, vertical
@@ -65,15 +66,26 @@ class Passage(NamedTuple):
 
 def passage_of(result: SpotlightResult | VideoResult) -> Passage:
     """The flight past the aim point, some minutes longer than the imaging where it is known."""
-    request, start, stop = result.request, float(result.times[0]), float(result.times[-1])
-    first, last = (end - result.plan.time for end in request.trajectory.span)
+    return _around(result.plan, result.request, float(result.times[0]), float(result.times[-1]))
+
+
+def passage_of_scene(staring: StaringScene) -> Passage:
+    """The flight past the place that a formation watches, some minutes longer than it does."""
+    half = 0.5 * staring.duration
+    return _around(staring.plan, staring.request, -half, half)
+
+
+def _around(
+    plan: SpotlightPlan, request: SpotlightRequest | VideoRequest, start: float, stop: float
+) -> Passage:
+    first, last = (end - plan.time for end in request.trajectory.span)
     during = np.linspace(start, stop, _POINTS)
     before = np.linspace(max(start - _AROUND, first), start, _POINTS)[:-1]
     after = np.linspace(stop, min(stop + _AROUND, last), _POINTS)[1:]
     try:
-        return _passage(result.plan, request, np.concatenate([before, during, after]), start, stop)
+        return _passage(plan, request, np.concatenate([before, during, after]), start, stop)
     except ValueError:  # an ephemeris has a gap before or after
-        return _passage(result.plan, request, during, start, stop)
+        return _passage(plan, request, during, start, stop)
 
 
 def _passage(

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:  # a report of a study without one does not pay for its import
     from insar.observe import Observation
+    from insar.observe.agile.staring import StaringScene
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -25,7 +26,8 @@ class StudyInfo:
     orbit_altitude : scalar — height of the reference orbit above the equatorial radius [m]; None
         where the study has several orbits, or none.
     inclination : scalar — of the reference orbit [rad]; None likewise.
-    observation : where the scene comes from; None if the study gives it.
+    observation : where the scene comes from, a pass over targets or one place that is watched; None
+        if the study gives it.
     inputs : the files that the study reads, each with its SHA-256.
     """
 
@@ -37,7 +39,7 @@ class StudyInfo:
     effective: str | None = None
     orbit_altitude: float | None = None
     inclination: float | None = None
-    observation: Observation | None = None
+    observation: Observation | StaringScene | None = None
     inputs: tuple[tuple[str, str], ...] = ()
 
 

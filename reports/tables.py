@@ -21,12 +21,19 @@ from .reading import (
 )
 from .wording import Span, source_name
 
+_DECIMALS = {"_deg": 7, "_hz": 6}
+"""By the unit: 0.1 µ° is a centimeter on the ground, and a µHz the rounding of a Doppler."""
+
 _STATE_COLUMNS = ("r_m", "t_m", "n_m", "vr_m_s", "vt_m_s", "vn_m_s")
 
 
 def csv_bytes(frame: pd.DataFrame) -> bytes:
-    """Frame as CSV (UTF-8): every digit of the numbers, empty where there is none."""
+    """Frame as CSV (UTF-8): every digit that means something, empty where there is no number."""
     finite = frame.replace([np.inf, -np.inf], np.nan)
+    for name in finite.columns[finite.dtypes == np.float64]:
+        for unit, decimals in _DECIMALS.items():
+            if name.endswith(unit):
+                finite[name] = finite[name].round(decimals) + 0.0  # + 0.0 turns −0 into 0
     text: str = finite.to_csv(index=False, lineterminator="\n", na_rep="")
     return text.encode()
 

@@ -30,6 +30,7 @@ from insar.observe import Relation, Verdict
 from insar.observe.agile.spotlight import spotlight, spotlight_scene
 from insar.observe.agile.spotlight_claims import SpotlightClaim, SpotlightQuantity, judge_spotlight
 from insar.observe.agile.spotlight_plan import plan_spotlight
+from insar.observe.agile.staring import StaringScene
 from insar.observe.scenes.passes import Direction
 
 ETNA = {"latitude_deg": 37.751, "longitude_deg": 14.993, "height_m": 3300}
@@ -191,7 +192,8 @@ def test_a_formation_sees_the_place_from_the_whole_aperture():
     setup = build_optimize(load_study(example_path("three_sat_spotlight")).study)
     scene = setup.problem.scene
     assert len(scene) == 11
-    assert setup.observation is None
+    assert isinstance(setup.observation, StaringScene)
+    assert setup.observation.scene is scene
     # The same as the spotlight study of that place, computed on its own.
     alone = build_spotlight(
         SpotlightStudy.model_validate(

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
@@ -401,6 +401,8 @@ def test_pitch_and_roll_never_exceed_the_look_angle_and_yaw_may(
         )
     )
     single = found.slew_time[1, 0, 0] * found.slew_rate
+    # Where the satellite hardly moves over the Earth, the pitch that is needed exceeds the look.
+    assume(np.isfinite(single))
     assert single <= look * (1.0 + 1e-12)
     # |pitch| + |roll| is largest, at most √2 times the look angle, where the two are alike.
     assert found.steering_angle[1, 0, 0] <= math.sqrt(2.0) * look * (1.0 + 1e-2)

@@ -9,12 +9,14 @@ import io
 import json
 import math
 import re
-from datetime import UTC, datetime
+from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
 import jsonschema
 import numpy as np
+import pandas as pd
 import pytest
+from matplotlib.figure import Figure
 
 from formation import Elements, KeplerianOrbit, Orbit, equally_spaced, ground_track_circular
 from insar import ErrorBudget, ErrorSource, LookSide, Radar, Scene, SharedBy, one_transmitter
@@ -39,10 +41,15 @@ from insar.observe import (
     compensate,
     select,
 )
+from insar.observe.agile.spotlight_plan import plan_spotlight
+from insar.observe.agile.spotlight_results import SpotlightRequest
+from insar.observe.agile.staring import StaringScene, staring_scene
 from optimize import Constraints, EvaluateResult, Problem, assess
 from reports import Provenance, StudyInfo, write_report
-from reports.document import Document, Section
+from reports.document import CodeListing, Document, Section
 from reports.figures.height_error import series_line
+from reports.figures.lines import name_lines
+from reports.figures.maps import paint_ground
 from reports.figures.observation_map import observation_map
 from reports.figures.projection import (
     EARTH_RADIUS_KM,
@@ -51,6 +58,7 @@ from reports.figures.projection import (
     filled_path,
     land_outline,
 )
+from reports.figures.steering import along_orbit
 from reports.html import html_bytes
 from reports.json_result import result_json, result_schema
 from reports.pages import page_of
@@ -58,7 +66,9 @@ from reports.pages.claims import claims_section
 from reports.pages.observation import observation_section
 from reports.pages.steering_studies import selection_section
 from reports.pages.steering_verdict import share_solved, steering_verdict
+from reports.pdf import pdf_bytes
 from reports.reading_steering import exact_laws
+from reports.tables import csv_bytes
 from reports.tables_steering import largest, steering_frame
 
 EPOCH = datetime(2024, 3, 1, tzinfo=UTC)
@@ -149,7 +159,16 @@ def make_compensation() -> Compensation:
 
 CLAIMS = (
     Claim("largest yaw", "3.8°", 3.72, "°", Verdict.HOLDS, "to the printed digits"),
-    Claim("largest yaw, GEO", "67°", 75.04, "°", Verdict.FAILS, "Table 2 itself implies 75°"),
+    Claim(
+        "largest yaw, GEO",
+        "67°",
+        75.04,
+        "°",
+        Verdict.FAILS,
+        "Table 2 itself implies 75°",
+        66.5,
+        67.5,
+    ),
     Claim("loss", "none", math.nan, "dB", Verdict.UNKNOWN, "no bandwidth is stated"),
 )
 
@@ -260,7 +279,12 @@ def test_odd_steering_is_reported_in_full(name: str, tmp_path: Path) -> None:
 
 def test_verdict_is_honest_about_zero_price_and_gaps(full: SteeringResult, full_text: str) -> None:
     text = full_text
-    assert "Zero Doppler at the boresight with yaw-pitch and pitch-roll" in text
+    parts = [
+        f"{name} (on {100 * np.mean(full.cases[1].of(law).outcome == Outcome.SOLVED):.0f} % of the "
+        "orbit only)"
+        for name, law in (("yaw-pitch", Law.YAW_PITCH), ("pitch-roll", Law.PITCH_ROLL))
+    ]
+    assert f"Zero Doppler at the boresight with {' and '.join(parts)}" in text
     assert "The price over the swath:" in text
     worst = max(np.nanmax(np.abs(c.of(Law.PITCH_ROLL).swath_doppler)) for c in full.cases)
     assert re.search(rf"pitch-roll has up to {worst:.3g} Hz \(", text)
@@ -287,8 +311,8 @@ def test_residuals_are_only_called_zero_when_they_are_rounding() -> None:
 
 def test_claims_show_both_figures_the_verdict_and_why(full: SteeringResult) -> None:
     text = section_text(claims_section(CLAIMS, "stated inputs"))
-    assert "67° 75.0° ✗ does not hold Table 2 itself implies 75°" in text
-    assert "none — ? not computable no bandwidth is stated" in text
+    assert "67° 66.5 … 67.5° 75.0° ✗ does not hold Table 2 itself implies 75°" in text
+    assert "none — — ? not computable no bandwidth is stated" in text
     rows = list(csv.DictReader(io.StringIO(page_of(full).csv(full)["claims.csv"].to_csv())))
     assert [row["verdict"] for row in rows] == ["holds", "does not hold", "not computable"]
 
@@ -299,6 +323,11 @@ def test_selection_lists_the_crossovers(full: SteeringResult, full_text: str) ->
         assert f"{found[0] / 1e3:.0f} km" in full_text
     none = dataclasses.replace(full.selections[0], crossovers=((), ()))
     assert "none between 1000 and 36000 km" in section_text(selection_section((none,)))
+    unsolved = dataclasses.replace(none, steering_angle=np.full_like(none.steering_angle, np.nan))
+    text = section_text(selection_section((unsolved,)))
+    assert "No law can be taken" in text
+    assert "neither law has a solution" in text
+    assert "Figure" not in text
 
 
 def test_sweep_says_where_each_norm_falls_to_95_percent(full_text: str) -> None:
@@ -414,7 +443,7 @@ def make_observation(
     return dataclasses.replace(observation, **changes)
 
 
-def evaluated(observation: Observation) -> tuple[EvaluateResult, StudyInfo]:
+def evaluated(observation: Observation | StaringScene) -> tuple[EvaluateResult, StudyInfo]:
     problem = Problem(
         mean_motion=observation.orbit.mean_motion,
         scene=observation.scene,
@@ -465,9 +494,159 @@ def test_scene_from_an_orbit_is_reported_with_map_table_and_json(tmp_path: Path)
     assert "one ascending pass, looking right , of a real orbit" in text
     assert "6 segments of 9 targets" in text
     assert "off the strip 2 behind the horizon 1" in text
-    assert "pass 2 of 3 in the time searched" in text
+    assert "pass 2 of 3 found in the time searched" in text
+    assert "over 6 of 9 targets" in text
+    assert "orbit from mean elements with J2" in text
+    assert block["orbit_source"] == "mean elements with J2"
     assert "referred to zero Doppler" in text
     assert not re.search(r"\b(nan|NaN|inf|Infinity|None)\b", text)
+
+
+def test_orbit_of_a_pass_has_its_source_and_age() -> None:
+    for days, age in ((3.2, "3.2 days before"), (-0.25, "6.0 hours after"), (0.0, "at the pass")):
+        aged = make_observation(
+            orbit_source="two-line elements of X",
+            orbit_epoch=EPOCH - timedelta(days=days),
+            epoch=EPOCH + timedelta(milliseconds=123),
+        )
+        text = section_text(observation_section(aged))
+        assert "orbit from two-line elements of X" in text
+        assert f"UTC, {age}" in text
+        assert "2024-03-01 00:00:00.123 UTC, the first segment" in text
+
+
+def test_table_of_segments_leaves_out_none_where_few_would_be() -> None:
+    assert "segments.csv has all" not in section_text(
+        observation_section(make_observation(segments=25))
+    )
+    many = section_text(observation_section(make_observation(segments=40)))
+    assert "24 of 40; segments.csv has all" in many
+
+
+def test_whole_revolution_is_not_a_pass_in_one_direction() -> None:
+    turn = math.tau / make_observation().orbit.mean_motion
+    band = make_observation(segments=9, latitude=0.0)
+    around = dataclasses.replace(
+        band,
+        scene=dataclasses.replace(band.scene, times=np.linspace(0.0, turn, 9)),
+        latitude=np.sin(np.linspace(0.0, math.tau, 9)),
+        outlines=(),
+    )
+    text = section_text(observation_section(around))
+    assert "a whole revolution, looking right" in text
+    assert "ascending at the first segment" in text
+    assert "one ascending pass" not in text
+
+
+def test_constant_incidence_has_no_bar_of_colors() -> None:
+    observation = make_observation()
+    sloped = dataclasses.replace(
+        observation.scene, incidence=observation.scene.look_angle + np.linspace(0.0, 0.1, 6)
+    )
+    bars = [
+        observation_map(one).count(b"axes_")
+        for one in (observation, dataclasses.replace(observation, scene=sloped))
+    ]
+    assert bars[0] < bars[1]
+
+
+def test_names_on_a_map_keep_apart() -> None:
+    figure = Figure(figsize=(4.0, 4.0))
+    axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
+    axes.set_xlim(-1.0, 1.0)
+    axes.set_ylim(-1.0, 1.0)
+    along = np.linspace(-1.0, 1.0, 101)
+    lines = [
+        (np.stack([np.full(101, x), along], axis=-1), "far edge, 45°", "k") for x in (0.0, 0.01)
+    ]
+    name_lines(axes, lines, 1.0)
+    figure.canvas.draw()
+    first, second = (text.get_window_extent() for text in axes.texts)
+    assert not first.overlaps(second)
+
+
+def test_names_of_meridians_keep_apart() -> None:
+    figure = Figure(figsize=(2.0, 2.0))
+    axes = figure.add_axes((0.1, 0.1, 0.8, 0.8))
+    paint_ground(axes, Azimuthal(math.radians(20.0), math.radians(80.0)), 1500.0)
+    figure.canvas.draw()
+    boxes = [label.get_window_extent() for label in axes.get_xticklabels()]
+    assert boxes
+    assert not any(one.overlaps(other) for i, one in enumerate(boxes) for other in boxes[:i])
+
+
+def test_staring_scene_is_reported_with_its_pass(tmp_path: Path) -> None:
+    orbit = KeplerianOrbit.circular(altitude=514e3, inclination=1.7, epoch=EPOCH)
+    request = SpotlightRequest(
+        trajectory=orbit,
+        latitude=math.radians(37.751),
+        longitude=math.radians(14.993),
+        height=3300.0,
+        wavelength=0.031,
+        resolution=0.25,
+        start=0.0,
+        stop=11 * 86400.0,
+        near_incidence=math.radians(20.0),
+        far_incidence=math.radians(55.0),
+    )
+    plan = plan_spotlight(request)
+    staring = staring_scene(request, plan, duration=4.0, segments=5)
+    assert staring.duration == 4.0
+    result, study = evaluated(staring)
+    write_report(result, study=study, provenance=PROVENANCE, out=tmp_path)
+    document = json.loads((tmp_path / "result.json").read_text("utf-8"))
+    jsonschema.validate(document, result_schema())
+    block = document["observation"]
+    assert block["place"]["latitude_rad"] == request.latitude
+    # Ahead before zero Doppler, in its plane in the middle, behind after it.
+    squints = [one["squint_rad"] for one in block["segments"]]
+    assert squints[0] > 0.0 > squints[-1]
+    assert squints[2] == pytest.approx(0.0, abs=1e-9)
+    text = words_of((tmp_path / "report.html").read_text("utf-8"))
+    assert "Where the geometry lies" in text
+    assert "37.751° N 14.993° E, 3300 m above the ellipsoid" in text
+    assert f"pass 1 of {plan.passes} in the time searched" in text
+    assert "how it moves over the scene" in text
+    rows = list(csv.DictReader(io.StringIO((tmp_path / "segments.csv").read_text("utf-8"))))
+    assert [float(row["since_zero_doppler_s"]) for row in rows] == [-2.0, -1.0, 0.0, 1.0, 2.0]
+
+
+def test_csv_has_the_digits_that_mean_something() -> None:
+    frame = pd.DataFrame({"look_deg": [37.58916666666667], "doppler_hz": [-1.2e-8], "x_m": [1 / 3]})
+    _, row, _ = csv_bytes(frame).decode().split("\n")
+    assert row == "37.5891667,0.0,0.3333333333333333"
+
+
+def test_failing_claim_says_what_would_agree_and_why() -> None:
+    within = Claim("pitch", "within ±0.07°", 0.075, "°", Verdict.HOLDS, "", -math.inf, 0.08)
+    bare = Claim("yaw", "3°", 4.0, "°", Verdict.FAILS, "", 2.9, 3.1)
+    rest = Claim("residual", "0", 3.8e-10, "Hz", Verdict.HOLDS, "", -math.inf, 1e-7)
+    text = section_text(claims_section((within, bare, rest), "stated inputs"))
+    assert "within ±0.07° ≤ 0.08° 0.0750° ✓ holds" in text
+    assert "The study gives no reason." in text
+    assert "≤ 10⁻⁷ Hz 0 Hz ✓ holds" in text
+
+
+def test_argument_of_latitude_begins_in_the_first_revolution() -> None:
+    degrees = along_orbit(np.radians(np.linspace(360.0, 720.0, 5)) - 1e-12)
+    np.testing.assert_allclose(degrees, [0.0, 90.0, 180.0, 270.0, 360.0], atol=1e-6)
+    np.testing.assert_allclose(along_orbit(np.radians([350.0, 380.0])), [350.0, 380.0])
+
+
+def test_defaults_are_listed_in_html_only() -> None:
+    listing = CodeListing("filled: in", "defaults", printed=False)
+    page = Document("t", "s", "", "p", (Section("study", "The study", (listing,)),))
+    assert b"filled: in" in html_bytes(page)
+    assert b"filled: in" not in pdf_bytes(page)
+    assert len(pdf_bytes(page)) < len(pdf_bytes(_printed(page)))
+
+
+def _printed(page: Document) -> Document:
+    (section,) = page.sections
+    listing = section.blocks[0]
+    assert isinstance(listing, CodeListing)
+    blocks = (listing._replace(printed=True, text="filled: in\n" * 200),)
+    return dataclasses.replace(page, sections=(section._replace(blocks=blocks),))
 
 
 def test_segments_of_an_area_are_not_joined_by_a_line() -> None:

@@ -463,9 +463,8 @@ def test_other_side_and_other_direction_are_named():
         spotlight(dataclasses.replace(request, side=LookSide.LEFT))
     with pytest.raises(ValueError, match=r"only while the satellite flies northward"):
         spotlight(dataclasses.replace(request, direction=Direction.DESCENDING))
-    with pytest.raises(
-        ValueError, match=r"number = 3: .* on 1 pass in the searched time; take it, or search longer"
-    ):
+    message = r"number = 3: .* on 1 pass in the searched time; take it, or search longer"
+    with pytest.raises(ValueError, match=message):
         spotlight(dataclasses.replace(request, number=3))
     assert plan_spotlight(dataclasses.replace(request, side=LookSide.RIGHT)).passes == 1
 

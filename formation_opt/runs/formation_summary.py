@@ -7,7 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from insar.observe import Observation
-from insar.observe.scenes.cautions import cautions
+from insar.observe.agile.staring import StaringScene
+from insar.observe.scenes.cautions import cautions, orbit_cautions
 from optimize import Assessment
 
 from .outcome import Summary
@@ -40,9 +41,13 @@ def formation_summary(shown: Sequence[Assessment], warnings: tuple[str, ...] = (
     return Summary(tuple(a.label for a in shown), tuple(rows), warnings)
 
 
-def scene_cautions(observation: Observation | None) -> tuple[str, ...]:
+def scene_cautions(observation: Observation | StaringScene | None) -> tuple[str, ...]:
     """Warnings of the scene; none for a scene that was given."""
-    return () if observation is None else cautions(observation)
+    if observation is None:
+        return ()
+    if isinstance(observation, Observation):
+        return cautions(observation)
+    return orbit_cautions(observation)
 
 
 def meters(value: float) -> str:

@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 from formation import Orbit
 from insar.observe import Observation
+from insar.observe.agile.staring import StaringScene
 from optimize import GenerationRecord
 
 
@@ -65,6 +66,6 @@ class Outcome:
     evaluations: int = 0
     seed: int | None = None
     orbit: Orbit | None = None
-    observation: Observation | None = None
+    observation: Observation | StaringScene | None = None
     blocked: str | None = None
     interrupted: bool = False

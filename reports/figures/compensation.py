@@ -6,7 +6,6 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
-import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
@@ -15,12 +14,15 @@ from insar.observe import Compensation, CompensationCurve
 
 from ..steering_words import effect_name
 from ..wording import fixed, plain
-from .steering import mark_orbit
+from .steering import along_orbit, mark_orbit
 from .style import BROKEN, INK, color, draw, name_series
 
 _SOUGHT = 95.0
 """Compensation that Meng asks for [%]."""
 
+
+_NOTHING = 1e-6
+"""Difference of range rates that is rounding, as in the table beside it [m/s]."""
 
 _SHADES = (INK, color(0), color(1), color(2))
 _DASHES: tuple[Any, ...] = ("-", (0, (6, 2)), (0, (2, 2)), "-.")
@@ -54,7 +56,7 @@ def effects_figure(compensation: Compensation) -> bytes:
 def _paint_effect(left: Axes, right: Axes, curves: Sequence[CompensationCurve]) -> None:
     """One effect: the Doppler of both models, and their difference for each perigee."""
     for index, curve in enumerate(curves):
-        abscissa = np.rad2deg(curve.argument_of_latitude)
+        abscissa = along_orbit(curve.argument_of_latitude)
         left.plot(abscissa, curve.exact, color=color(5), linewidth=2.4)
         right.plot(
             abscissa,
@@ -65,7 +67,7 @@ def _paint_effect(left: Axes, right: Axes, curves: Sequence[CompensationCurve]) 
         mark_orbit(left, curve.argument_of_latitude)
         mark_orbit(right, curve.argument_of_latitude)
     left.plot(abscissa, curves[0].simplified, **_SIMPLIFIED)
-    _widen(right, float(np.abs(curves[0].exact).max()))
+    _widen(right)
     left.set_ylabel("λf/2 [m/s]")
     right.set_ylabel("difference [m/s]")
     title = effect_name(curves[0].effect)
@@ -91,10 +93,10 @@ def _name_lines(figure: Figure, curves: Sequence[CompensationCurve]) -> None:
     name_series(figure, handles, names, loc="outside lower center", ncols=min(len(names), 5))
 
 
-def _widen(axes: Axes, exact: float) -> None:
+def _widen(axes: Axes) -> None:
     """Draw a difference that is rounding as the zero that it is."""
     low, high = axes.get_ylim()
-    if high - low < 1e-9 * exact:
+    if max(abs(low), abs(high)) < _NOTHING:
         axes.set_ylim(-1.0, 1.0)
 
 

@@ -14,9 +14,12 @@ from numpy.typing import NDArray
 from insar import Scene
 
 from ..reading import Shown
-from .style import color, draw, error_axis, legend_rows, name_formations, series_marker
+from .style import GRID, color, draw, error_axis, legend_rows, name_formations, series_marker
 
 Array = NDArray[np.float64]
+
+_STANDING, _LITTLE = 1e-6, 0.05
+"""Relative spread over the scene below which an error stands still, and from which it is seen."""
 
 _SEGMENT = "segment"
 
@@ -49,18 +52,55 @@ def height_error_figure(formations: Sequence[Shown], scene: Scene) -> bytes:
     formations : those compared.
     scene : the segments.
     """
+    moving = moves_little(formations, scene)
 
     def paint(figure: Figure) -> None:
-        total, relative = figure.subplots(1, 2)
+        panels = figure.subplots(2 if moving else 1, 2, squeeze=False)
+        total, relative = panels[0]
         errors = [f.assessment.height_error for f in formations]
         styles = [f.style for f in formations]
         _paint_panel(total, scene, styles, [(e.total, e.region) for e in errors])
         _paint_panel(relative, scene, styles, [(e.relative, e.relative_region) for e in errors])
         total.set_title("(a) total", loc="left")
         relative.set_title("(b) relative", loc="left")
+        if moving:
+            _paint_course(panels[1, 0], scene, styles, [(e.total, e.region) for e in errors])
+            _paint_course(
+                panels[1, 1], scene, styles, [(e.relative, e.relative_region) for e in errors]
+            )
+            panels[1, 0].set_title("(c) total, against its RMS", loc="left")
+            panels[1, 1].set_title("(d) relative, against its RMS", loc="left")
         name_formations(figure, formations)
 
-    return draw(paint, height=2.4 + 0.18 * legend_rows(formations))
+    return draw(paint, height=(4.4 if moving else 2.4) + 0.18 * legend_rows(formations))
+
+
+def moves_little(formations: Sequence[Shown], scene: Scene) -> bool:
+    """Whether the error moves over the scene, but by too little to be seen beside its size."""
+    if series_line(0, scene)["linestyle"] == "" or scene_axis(scene)[1] == _SEGMENT:
+        return False
+    spreads = [_spread(shown.assessment.height_error.total) for shown in formations]
+    return _STANDING < max(spreads, default=0.0) < _LITTLE
+
+
+def _spread(values: Array) -> float:
+    """Largest less smallest over the largest; infinite where one is."""
+    if not np.all(np.isfinite(values)):
+        return np.inf
+    return float(np.ptp(values) / values.max())
+
+
+def _paint_course(
+    axes: Axes, scene: Scene, styles: Sequence[int], series: Sequence[tuple[Array, Array]]
+) -> None:
+    """How an error moves over the scene, in per cent of its RMS."""
+    abscissa, label = scene_axis(scene)
+    axes.axhline(0.0, color=GRID, linewidth=0.9)
+    for style, (values, region) in zip(styles, series, strict=True):
+        change = 100.0 * (values / region - 1.0)
+        axes.plot(abscissa, change, color=color(style), **series_line(style, scene))
+    mark_abscissa(axes, abscissa, label)
+    axes.set_ylabel("change [%]")
 
 
 def _paint_panel(

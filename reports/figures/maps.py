@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patches import Circle, PathPatch
@@ -16,6 +18,9 @@ Array = NDArray[np.float64]
 _SEA, _LAND, _COAST, _GRATICULE = "#eef4f8", "#ebe6d8", "#8c8676", "#c3ccd2"
 
 _KM_PER_DEGREE = np.radians(1.0) * EARTH_RADIUS_KM
+
+_LABEL = 7.0
+"""Size of the names of meridians and parallels [pt]."""
 
 _STEPS = np.array([0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 45.0])
 """Spacings of a graticule [°]."""
@@ -108,9 +113,25 @@ def _name_crossings(
             ticks.append(float(np.interp(part, [0, 1], line[index : index + 2, 1 - axis])))
             names.append(word(float(value), decimals))
     edge = axes.xaxis if axis == 1 else axes.yaxis
-    kept = [index for index, tick in enumerate(ticks) if abs(tick) < window]
+    kept = _apart(axes, ticks, names, window, axis=axis)
     edge.set_ticks([ticks[index] for index in kept], [names[index] for index in kept])
-    edge.set_tick_params(labelsize=7.0, length=2.0)
+    edge.set_tick_params(labelsize=_LABEL, length=2.0)
+
+
+def _apart(
+    axes: Axes, ticks: Sequence[float], names: Sequence[str], window: float, *, axis: int
+) -> list[int]:
+    """Ticks within the map whose names do not touch, those nearest to the middle first."""
+    point = 2.0 * window / (72.0 * axes.bbox.width / axes.figure.dpi)
+    kept: list[int] = []
+    for index in sorted(range(len(ticks)), key=lambda one: abs(ticks[one])):
+        letters = len(names[index]) if axis == 1 else 2
+        room = point * _LABEL * (0.6 * letters + 0.6)
+        if abs(ticks[index]) < window and all(
+            abs(ticks[index] - ticks[other]) > room for other in kept
+        ):
+            kept.append(index)
+    return sorted(kept)
 
 
 def paint_scale(axes: Axes, window: float) -> None:

@@ -13,6 +13,8 @@ from numpy.typing import NDArray
 
 from insar.observe import Observation
 
+from ..wording import fixed
+from .lines import name_lines
 from .maps import paint_globe, paint_ground, paint_scale
 from .projection import Azimuthal, center_of
 from .style import BROKEN, INK, color, draw
@@ -25,6 +27,9 @@ _INCIDENCE_COLORS = LinearSegmentedColormap.from_list(
     "incidence", ["#fee391", "#ec7014", "#993404", "#4d1a02"]
 )
 """From light to dark, so that it also reads in gray and by the color-blind."""
+
+_CONSTANT = 0.01
+"""Range of incidences that is one value: a bar of colors would show the rounding of it [°]."""
 
 _NARROWEST = 5.0
 """Least half width of a map [km]: the outline of the land shows nothing finer."""
@@ -79,12 +84,15 @@ def _paint_pass(axes: Axes, observation: Observation, projection: Azimuthal, spr
     axes.add_patch(
         Rectangle((-spread, -spread), 2 * spread, 2 * spread, fill=False, ec=BROKEN, lw=0.9)
     )
-    for line, name, shade in (
-        (track, "ground track", _TRACK),
-        (near, f"near edge, {np.degrees(observation.near_incidence):.0f}°", INK),
-        (far, f"far edge, {np.degrees(observation.far_incidence):.0f}°", INK),
-    ):
-        _name_line(axes, line, name, window, shade)
+    name_lines(
+        axes,
+        (
+            (track, "ground track", _TRACK),
+            (near, f"near edge, {np.degrees(observation.near_incidence):.0f}°", INK),
+            (far, f"far edge, {np.degrees(observation.far_incidence):.0f}°", INK),
+        ),
+        window,
+    )
     paint_scale(axes, window)
     axes.set_title("(a) the pass", loc="left")
 
@@ -107,31 +115,6 @@ def _paint_flight(axes: Axes, track: Array, window: float) -> None:
     axes.add_patch(arrow)
 
 
-def _name_line(axes: Axes, line: Array, name: str, window: float, shade: str) -> None:
-    """Name along a line, in the lower half of the map."""
-    inside = np.flatnonzero(np.all(np.abs(line) < 0.85 * window, axis=-1))
-    if inside.size < 2:
-        return
-    low = int(inside[np.argmin(np.abs(line[inside, 1] + 0.4 * window))])
-    first, last = (low, low + 1) if low + 1 < len(line) else (low - 1, low)
-    step = line[last] - line[first]
-    slope = np.arctan2(step[1], step[0])
-    slope = (slope + np.pi / 2) % np.pi - np.pi / 2  # never upside down
-    axes.annotate(
-        name,
-        (float(line[low, 0]), float(line[low, 1])),
-        rotation=float(np.degrees(slope)),
-        rotation_mode="anchor",
-        xytext=(-2.0 * float(np.sin(slope)), 2.0 * float(np.cos(slope))),
-        textcoords="offset points",
-        ha="center",
-        va="bottom",
-        fontsize=7.0,
-        color=shade,
-        clip_on=True,
-    )
-
-
 def _paint_segments(
     axes: Axes, observation: Observation, projection: Azimuthal, window: float
 ) -> None:
@@ -140,7 +123,8 @@ def _paint_segments(
         closed = np.concatenate([outline, outline[:1]])
         axes.plot(*projection(*closed.T).T, color=INK, linewidth=0.9)
     incidence = np.degrees(observation.scene.incidence)
-    margin = 0.05 if np.ptp(incidence) < 0.01 else 0.0
+    constant = float(np.ptp(incidence)) < _CONSTANT
+    margin = 1.0 if constant else 0.0
     places = projection(observation.longitude, observation.latitude)
     dots = axes.scatter(
         places[:, 0],
@@ -158,7 +142,11 @@ def _paint_segments(
     axes.plot(*missed.T, "x", color=BROKEN, markersize=4.5, zorder=4)
     paint_scale(axes, window)
     axes.set_title("(b) the segments", loc="left", y=1.0)
-    _paint_colors(axes, dots)
+    if constant:
+        middle = fixed(float(incidence.mean()), 2)
+        axes.set_title(f"incidence {middle}°", loc="right", fontsize=7.5, y=1.0)
+    else:
+        _paint_colors(axes, dots)
 
 
 def _paint_colors(axes: Axes, dots: PathCollection) -> None:

@@ -44,14 +44,17 @@ LAW_MARKERS = {
     Law.PITCH_ROLL: "o",
 }
 
+_AT_THE_NODE = 1e-6
+"""Part of a revolution by which rounding may put a start at the node before it."""
+
 _MOST_POINTS = 721
 """Points of a curve that are drawn."""
 
 _FLOOR = 1e-13
 """Doppler [Hz] at which a zero is drawn on a logarithmic axis."""
 
-_NOTHING = 1e-9
-"""Angles [°] and rates [°/s] below this are rounding: they are drawn as the zero that they are."""
+_NO_ANGLE, _NO_RATE = 1e-5, 1e-9
+"""Angles [°] and rates [°/s] that no axis shows: they are drawn as the zero that they are."""
 
 _ROW = 1.28
 """Height of a row of panels [inch]."""
@@ -62,6 +65,7 @@ class _Column(NamedTuple):
 
     heading: str
     label: str
+    nothing: float
     read: Callable[[LawCurves], Array]
     keep: Callable[[LawCurves], bool] = lambda _: True
 
@@ -81,10 +85,16 @@ def attitude_figure(cases: Sequence[CaseResult]) -> bytes:
         return curves.law is Law.PITCH_ROLL
 
     columns = [
-        _Column("", "yaw [°]", lambda curves: np.rad2deg(curves.yaw), turns_yaw),
-        _Column("laws that yaw", "pitch [°]", lambda curves: np.rad2deg(curves.pitch), turns_yaw),
-        _Column("", "pitch [°]", lambda curves: np.rad2deg(curves.pitch), rolls),
-        _Column("pitch-roll", "roll [°]", lambda curves: np.rad2deg(curves.roll), rolls),
+        _Column("", "yaw [°]", _NO_ANGLE, lambda curves: np.rad2deg(curves.yaw), turns_yaw),
+        _Column(
+            "laws that yaw",
+            "pitch [°]",
+            _NO_ANGLE,
+            lambda curves: np.rad2deg(curves.pitch),
+            turns_yaw,
+        ),
+        _Column("", "pitch [°]", _NO_ANGLE, lambda curves: np.rad2deg(curves.pitch), rolls),
+        _Column("pitch-roll", "roll [°]", _NO_ANGLE, lambda curves: np.rad2deg(curves.roll), rolls),
     ]
     return _rows(cases, [one for one in columns if any(one.keep(c) for c in _all(cases))])
 
@@ -102,10 +112,14 @@ def rates_figure(cases: Sequence[CaseResult]) -> bytes:
             _Column(
                 "against the orbit frame",
                 "rate [°/s]",
+                _NO_RATE,
                 lambda curves: np.rad2deg(rate_of(curves.rate_orbit)),
             ),
             _Column(
-                "inertial", "rate [°/s]", lambda curves: np.rad2deg(rate_of(curves.rate_inertial))
+                "inertial",
+                "rate [°/s]",
+                _NO_RATE,
+                lambda curves: np.rad2deg(rate_of(curves.rate_inertial)),
             ),
         ],
     )
@@ -127,9 +141,10 @@ def boresight_figure(cases: Sequence[CaseResult]) -> bytes:
         _Column(
             "at the boresight",
             "|Doppler| [Hz]",
+            0.0,
             lambda curves: np.maximum(np.abs(curves.residual_doppler), _FLOOR),
         ),
-        _Column("", "incidence [°]", lambda curves: np.rad2deg(curves.incidence)),
+        _Column("", "incidence [°]", _NO_ANGLE, lambda curves: np.rad2deg(curves.incidence)),
     ]
     return _rows(cases, columns, finish=finish)
 
@@ -188,7 +203,7 @@ def _rows(
 
 def _paint_panel(axes: Axes, case: CaseResult, column: _Column, *, many: bool) -> None:
     few = thinned(case.argument_of_latitude.size)
-    abscissa = np.rad2deg(case.argument_of_latitude[few])
+    abscissa = along_orbit(case.argument_of_latitude)[few]
     for curves in case.curves:
         if column.keep(curves):
             axes.plot(abscissa, column.read(curves)[few], **LAW_STYLES[curves.law])
@@ -203,15 +218,15 @@ def _paint_panel(axes: Axes, case: CaseResult, column: _Column, *, many: bool) -
             fontsize=8.0,
         )
         return
-    _widen(axes)
+    _widen(axes, column.nothing)
     axes.set_ylabel(column.label)
     mark_orbit(axes, case.argument_of_latitude, most=3 if many else 6)
 
 
-def _widen(axes: Axes) -> None:
+def _widen(axes: Axes, nothing: float) -> None:
     """Keep a vertical axis so wide that rounding does not look like a motion."""
     low, high = axes.get_ylim()
-    if max(abs(low), abs(high)) < _NOTHING:
+    if max(abs(low), abs(high)) < nothing:
         axes.set_ylim(-1.0, 1.0)
         return
     least = 0.004 * max(abs(low), abs(high))
@@ -229,9 +244,16 @@ def thinned(count: int) -> NDArray[np.int_]:
     return np.unique(np.linspace(0, count - 1, min(count, _MOST_POINTS)).round().astype(int))
 
 
+def along_orbit(argument_of_latitude: Array) -> Array:
+    """Argument of latitude [rad → °] that begins in the first revolution, not at 360°."""
+    degrees = np.rad2deg(argument_of_latitude)
+    return np.asarray(degrees - 360.0 * np.floor(degrees.min() / 360.0 + _AT_THE_NODE))
+
+
 def mark_orbit(axes: Axes, argument_of_latitude: Array, *, most: int = 6) -> None:
     """Limits and ticks of an axis of the argument of latitude [rad → °], `most` intervals."""
-    low, high = (float(np.rad2deg(f(argument_of_latitude))) for f in (np.min, np.max))
+    degrees = along_orbit(argument_of_latitude)
+    low, high = float(degrees.min()), float(degrees.max())
     axes.set_xlim(low, high)
     quarters = max(np.ceil((high - low) / 90.0 / most), 1.0)
     axes.xaxis.set_major_locator(MultipleLocator(90.0 * quarters))
@@ -281,7 +303,7 @@ def _paint_offsets(axes: Axes, case: CaseResult) -> None:
 def _paint_bands(axes: Axes, case: CaseResult) -> None:
     """Doppler along the orbit between the lowest and the highest over the swath."""
     few = thinned(case.argument_of_latitude.size)
-    abscissa = np.rad2deg(case.argument_of_latitude[few])
+    abscissa = along_orbit(case.argument_of_latitude)[few]
     exact = exact_laws([case])
     for curves in case.curves:
         if curves.law not in exact:
@@ -291,6 +313,7 @@ def _paint_bands(axes: Axes, case: CaseResult) -> None:
         axes.fill_between(abscissa, low, high, color=style["color"], alpha=0.35, linewidth=0.0)
         for edge in (low, high):
             axes.plot(abscissa, edge, color=style["color"], linewidth=0.8)
+    _widen(axes, ROUNDING)
     mark_orbit(axes, case.argument_of_latitude)
     axes.set_ylabel("Doppler [Hz]")
     if not exact:

@@ -8,8 +8,9 @@ from collections.abc import Sequence
 from insar.observe import Claim, Verdict
 
 from ..document import Column, Section, Status, Strong, Table, Text
+from ..reading_steering import ROUNDING
 from ..tables_steering import claims_frame
-from ..wording import MISSING, counted, quantity, significant
+from ..wording import MISSING, counted, plain, quantity, significant
 
 _MARKS = {
     Verdict.HOLDS: Status.NOTE,
@@ -32,6 +33,8 @@ def claims_section(claims: Sequence[Claim], inputs: str, *, digits: int = 3) -> 
         return None
     frame = claims_frame(claims)
     frame["computed"] = [_with_unit(claim.computed, claim.unit, digits) for claim in claims]
+    frame["agrees"] = [_agreeing(claim) for claim in claims]
+    frame["note"] = [_why(claim) for claim in claims]
     frame["verdict"] = [f"{_SYMBOLS[claim.verdict]} {claim.verdict.value}" for claim in claims]
     return Section(
         "claims",
@@ -42,22 +45,46 @@ def claims_section(claims: Sequence[Claim], inputs: str, *, digits: int = 3) -> 
                 (
                     Column("text", "Figure"),
                     Column("printed", "Printed"),
+                    Column("agrees", "Agrees if"),
                     Column("computed", f"From the {inputs}", "", list),
                     Column("verdict", "Verdict"),
                     Column("note", "Why"),
                 ),
                 "Each printed figure, the same quantity computed from the "
-                f"{inputs}, and whether the one follows from the other.",
+                f"{inputs}, and whether the one follows from the other: whether the computed "
+                "figure lies within what the study grants the printed one.",
                 tuple(_MARKS[claim.verdict] for claim in claims),
             ),
         ),
     )
 
 
+def _agreeing(claim: Claim) -> str:
+    """What the computed figure must be, by the tolerance."""
+    least, most = (_with(plain(bound), claim.unit) for bound in (claim.least, claim.most))
+    if math.isinf(claim.least):
+        return MISSING if math.isinf(claim.most) else f"≤ {most}"
+    if math.isinf(claim.most):
+        return f"≥ {least}"
+    return f"{plain(claim.least)} … {most}"
+
+
+def _why(claim: Claim) -> str:
+    """The note of the study; that there is none where one is missed."""
+    if claim.note or claim.verdict is Verdict.HOLDS:
+        return claim.note
+    return "The study gives no reason."
+
+
 def _with_unit(value: float, unit: str, digits: int) -> str:
     if not math.isfinite(value):
         return MISSING
-    text = significant(value, digits)
+    rounding = unit == "Hz" and abs(value) < ROUNDING
+    return _with("0" if rounding else significant(value, digits), unit)
+
+
+def _with(text: str, unit: str) -> str:
+    """Number and unit; degrees without a space."""
     return f"{text}{unit}" if unit.startswith("°") else quantity(text, unit)
 
 

@@ -31,7 +31,11 @@ def closing_sections(
     blocks: list[Block] = [setting, CodeListing(study.source_text, "The study file as run.")]
     if study.effective is not None:
         blocks.append(
-            CodeListing(study.effective, "The study as validated, with every default filled in.")
+            CodeListing(
+                study.effective,
+                "The study as validated, with every default filled in.",
+                printed=False,
+            )
         )
     caption = "Provenance. The same study, seed and version give the same result."
     return (

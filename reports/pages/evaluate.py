@@ -17,7 +17,7 @@ from . import sections
 from .closing import closing_sections, formation_setting
 from .interferometry import pairs_section, unwrapping_section
 from .methods import methods_section
-from .observation import observation_section
+from .observation import observation_section, unseen
 from .verdict import evaluate_verdict
 
 
@@ -31,7 +31,10 @@ def document(result: EvaluateResult, study: StudyInfo, provenance: Provenance) -
         Section(
             "result",
             "Result",
-            (*evaluate_verdict(result), *sections.warning_blocks(result.warnings)),
+            (
+                *evaluate_verdict(result, unseen(study.observation)),
+                *sections.warning_blocks(result.warnings),
+            ),
         ),
         observation_section(study.observation),
         sections.formation_section(problem, [formation]),

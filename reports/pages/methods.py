@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from insar import BaselineDecorrelation, HeldConstant, Weighting
 from insar.observe import Observation
+from insar.observe.agile.staring import StaringScene
 from optimize import Problem, SearchResult
 
 from ..document import Block, Equation, Paragraph, Reference, References, Section, Strong, Symbol
@@ -69,7 +70,10 @@ _BOOTSTRAP = Equation(
 
 
 def methods_section(
-    problem: Problem, *, search: SearchResult | None, observation: Observation | None = None
+    problem: Problem,
+    *,
+    search: SearchResult | None,
+    observation: Observation | StaringScene | None = None,
 ) -> Section:
     """Methods and references.
 
@@ -124,14 +128,19 @@ def methods_section(
     return Section("methods", "How it was computed", (*blocks, References(tuple(cite.works))))
 
 
-def _geometry(observation: Observation | None) -> tuple[Block, ...]:
+def _geometry(observation: Observation | StaringScene | None) -> tuple[Block, ...]:
     """How the scene follows from an orbit."""
     if observation is None:
         return ()
+    seen = (
+        "A segment is seen when the line of sight to it is at right angles to the antenna's "
+        "azimuth axis"
+        if isinstance(observation, Observation)
+        else "A segment is the place itself, at a moment of the time in which the beam stays on it"
+    )
     return (
         Paragraph(
-            "The scene follows from the orbit's Earth-fixed states. A segment is seen when the "
-            "line of sight to it is at right angles to the antenna's azimuth axis; slant range, "
+            f"The scene follows from the orbit's Earth-fixed states. {seen}; slant range, "
             "look angle from the geocentric nadir and azimuth are those of that moment in the "
             "radial, along-track and normal axes of the orbit, the incidence is the angle to the "
             "normal of the WGS84 ellipsoid, and the Doppler at which the height sensitivity is "

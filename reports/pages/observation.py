@@ -9,26 +9,37 @@ import numpy as np
 
 from insar import LookSide
 from insar.observe import Observation, Reference
+from insar.observe.agile.staring import StaringScene
 
-from ..document import Block, Callout, Column, Figure, Paragraph, Section, Status, Strong, Table
+from ..document import Block, Column, Figure, Paragraph, Section, Status, Strong, Table
 from ..figures.observation_map import observation_map
 from ..reading_steering import ROUNDING
 from ..steering_words import boresight_text, law_name
 from ..tables_observation import missed_frame, segments_frame
-from ..wording import counted, fixed, percent, plain, significant, to_decimals
+from ..wording import counted, fixed, moment_text, plain, significant, to_decimals
 from .closing import facts
-
-_ECCENTRIC = 0.01
-"""Eccentricity from which the circular reference orbit is a warning, not a remark."""
+from .flown import eccentricity_block, orbit_rows
+from .staring import staring_section
 
 _MOST_LISTED = 24
-"""Segments that a table lists in full; of more, so many at equal steps."""
+"""Rows of the table of segments where there are many more, at equal steps."""
+
+_LISTED_IN_FULL = 32
+"""Segments of which a table leaves out none: a few rows more are better than a gap."""
+
+_A_WHOLE = 0.02
+"""Part of a revolution by which the segments of a whole one may miss it: they are moments of it."""
+
+_A_BEAM = 1e-9
+"""Angle off the boresight below which a segment is a point of the boresight itself [rad]."""
 
 
-def observation_section(observation: Observation | None) -> Section | None:
+def observation_section(observation: Observation | StaringScene | None) -> Section | None:
     """The pass, maps and segments; None where the study gives its geometry itself."""
     if observation is None:
         return None
+    if not isinstance(observation, Observation):
+        return staring_section(observation)
     blocks: list[Block] = [
         Paragraph(_seen(observation)),
         Figure(
@@ -46,9 +57,14 @@ def observation_section(observation: Observation | None) -> Section | None:
     ]
     if observation.missed_reasons:
         blocks.append(_missed_table(observation))
-    blocks += [*_eccentricity(observation), facts(_pass(observation), "The pass.")]
+    blocks += [eccentricity_block(observation.eccentricity), facts(_pass(observation), "The pass.")]
     blocks.append(_segments_table(observation))
     return Section("observation", "Where the geometry lies", tuple(blocks))
+
+
+def unseen(observation: Observation | StaringScene | None) -> int:
+    """Targets that the pass does not see."""
+    return len(observation.missed_reasons) if isinstance(observation, Observation) else 0
 
 
 def _seen(observation: Observation) -> tuple[str, ...]:
@@ -56,17 +72,36 @@ def _seen(observation: Observation) -> tuple[str, ...]:
     seen = len(observation.scene)
     text: tuple[str, ...] = (
         "The scene is ",
-        Strong(
-            f"one {'ascending' if observation.ascending else 'descending'} pass, "
-            f"looking {_side(observation)}"
-        ),
+        Strong(f"{_stretch(observation)}, looking {_side(observation)}"),
         f", of a real orbit over the WGS84 ellipsoid: {counted(seen, 'segment')}"
         + (f" of {counted(seen + missed, 'target')}" if missed else "")
         + f", from {_moment(observation)} UTC on. ",
     )
     if missed:
-        text += (Strong(f"{counted(missed, 'target')} not seen by this pass take no part. "),)
+        take = "takes" if missed == 1 else "take"
+        text += (Strong(f"{counted(missed, 'target')} not seen by this pass {take} no part. "),)
     return (*text, _REFERENCE[observation.reference])
+
+
+def _stretch(observation: Observation) -> str:
+    """What is flown: a pass, or so much of a revolution that it goes both north and south."""
+    if not _turns(observation):
+        return f"one {_direction(observation)} pass"
+    revolutions = float(np.ptp(observation.scene.times)) * observation.orbit.mean_motion / math.tau
+    if abs(revolutions - 1.0) < _A_WHOLE:
+        return "a whole revolution"
+    return f"a stretch of {fixed(revolutions, 2)} revolutions"
+
+
+def _turns(observation: Observation) -> bool:
+    """Whether the boresight sweeps a band in which the satellite turns north or south."""
+    swept = bool(np.all(np.abs(observation.off_boresight) < _A_BEAM))
+    northward = np.diff(observation.latitude) > 0.0
+    return swept and bool(np.any(northward) and not np.all(northward))
+
+
+def _direction(observation: Observation) -> str:
+    return "ascending" if observation.ascending else "descending"
 
 
 _REFERENCE = {
@@ -88,22 +123,7 @@ def _side(observation: Observation) -> str:
 
 
 def _moment(observation: Observation) -> str:
-    return observation.epoch.strftime("%Y-%m-%d %H:%M:%S")
-
-
-def _eccentricity(observation: Observation) -> tuple[Block, ...]:
-    """What the circular reference orbit of the relative motion leaves out."""
-    eccentricity = observation.eccentricity
-    text = (
-        f"The orbit has a mean eccentricity of {fixed(eccentricity, 5)}. The geometry is that of "
-        "the orbit as it is, but the satellites move relative to each other as about a circle of "
-        "the same mean semi-major axis (Clohessy-Wiltshire): this leaves out terms of the order "
-        f"of the eccentricity, some {percent(eccentricity)} of the relative positions."
-    )
-    if eccentricity < _ECCENTRIC:
-        return (Paragraph(text),)
-    title = "The reference orbit is not a circle"
-    return (Callout(Status.WARNING, title, (text,)),)
+    return moment_text(observation.epoch)
 
 
 def _missed_table(observation: Observation) -> Table:
@@ -119,12 +139,14 @@ def _pass(observation: Observation) -> list[tuple[str, str]]:
     orbit = observation.orbit
     return [
         ("epoch of the formation's states", f"{_moment(observation)} UTC, the first segment"),
+        *orbit_rows(observation),
+        ("pass", f"{observation.revolution} of {observation.passes} found in the time searched"),
         (
-            "pass",
-            f"{observation.revolution} of {observation.passes} in the time searched that see any "
-            "target",
+            "direction",
+            f"{_direction(observation)} at the first segment"
+            if _turns(observation)
+            else _direction(observation),
         ),
-        ("direction", "ascending" if observation.ascending else "descending"),
         ("look side", _side(observation)),
         ("mean semi-major axis", f"{fixed(orbit.semi_major_axis / 1e3, 3)} km"),
         ("mean inclination", f"{fixed(math.degrees(orbit.inclination), 3)}°"),
@@ -148,7 +170,7 @@ def _segments_table(observation: Observation) -> Table:
         "nadir from the flight direction, positive to the left; the Doppler centroid is that of "
         f"the beam as observed, 0 where it is below {plain(ROUNDING)}\u00a0Hz"
     )
-    if count > _MOST_LISTED:
+    if count > _LISTED_IN_FULL:
         chosen = np.unique(np.linspace(0, count - 1, _MOST_LISTED).round().astype(int))
         frame = frame.iloc[chosen]
         caption += f". {len(chosen)} of {count}; segments.csv has all"

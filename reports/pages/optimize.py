@@ -20,7 +20,7 @@ from . import sections
 from .closing import closing_sections, formation_setting
 from .interferometry import pairs_section, unwrapping_section
 from .methods import methods_section
-from .observation import observation_section
+from .observation import observation_section, unseen
 from .verdict import optimize_verdict
 
 _INITIAL_STYLE, _BEST_STYLE = 7, 0
@@ -37,7 +37,10 @@ def document(result: OptimizeResult, study: StudyInfo, provenance: Provenance) -
         Section(
             "result",
             "Result",
-            (*optimize_verdict(result), *sections.warning_blocks(result.warnings)),
+            (
+                *optimize_verdict(result, unseen(study.observation)),
+                *sections.warning_blocks(result.warnings),
+            ),
         ),
         observation_section(study.observation),
         sections.formation_section(problem, [best, initial]),

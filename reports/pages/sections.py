@@ -20,7 +20,7 @@ from ..document import (
     Table,
 )
 from ..figures.attribution import attribution_figure
-from ..figures.height_error import height_error_figure
+from ..figures.height_error import height_error_figure, moves_little
 from ..figures.orbits import orbits_figure
 from ..figures.orbits_interactive import interactive_orbits
 from ..reading import (
@@ -163,8 +163,14 @@ def height_error_section(problem: Problem, formations: Sequence[Shown]) -> Secti
         blocks.append(
             Figure(
                 height_error_figure(drawn, problem.scene),
-                "Height error of each segment; dashed, the RMS over the scene.",
-                "Two line charts of the height error against scene time: total and relative.",
+                "Height error of each segment; dashed, the RMS over the scene."
+                + (
+                    " Below, how it moves over the scene: its change against the RMS, which above "
+                    "is too small to be seen."
+                    if moves_little(drawn, problem.scene)
+                    else ""
+                ),
+                "Line charts of the height error against scene time: total and relative.",
             )
         )
     return Section("height-error", "Height error", tuple(blocks))

@@ -116,7 +116,8 @@ def _digits(values: Sequence[float]) -> list[str]:
 
 
 def _hertz(values: Sequence[float]) -> list[str]:
-    return [or_zero(float(value), 1e-13) for value in values]
+    """Three digits each; what is rounding only is zero."""
+    return [or_zero(float(value), ROUNDING) for value in values]
 
 
 def doppler_section(cases: Sequence[CaseResult]) -> Section:
@@ -166,11 +167,11 @@ def swath_section(cases: Sequence[CaseResult]) -> Section:
                 Column("law", "Law"),
                 Column("residual_hz", "Boresight", "Hz", _hertz),
                 *columns,
-                Column("hz_per_centidegree", "Pointing", "Hz per 0.01°", _digits),
+                Column("hz_per_centidegree", "Pointing", "Hz per 0.01°", _hertz),
             ),
             "Largest magnitude of the Doppler centroid over the orbit, at the boresight and at "
             "elevations off it, and its change for a beam turned by 0.01° in the worst direction. "
-            f"Values below {plain(ROUNDING)}\u00a0Hz are rounding.",
+            f"0: below {plain(ROUNDING)}\u00a0Hz, the rounding of the arithmetic.",
         )
     )
     return Section("swath", "Doppler over the swath", tuple(blocks))

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from insar.observe import Compensation, Selection
 
-from ..document import Block, Column, Figure, Paragraph, Section, Table
+from ..document import Block, Callout, Column, Figure, Paragraph, Section, Status, Table
 from ..figures.compensation import effects_figure, sweep_figure
 from ..figures.selection import selection_figure
 from ..reading_steering import ROUNDING
@@ -33,9 +33,25 @@ def selection_section(selections: Sequence[Selection]) -> Section | None:
             "a constant look angle it does not."
         )
     ]
-    blocks += [_selection_figure(one) for one in selections]
+    blocks += [
+        _selection_figure(one) if np.any(np.isfinite(one.steering_angle)) else _unsolved(one)
+        for one in selections
+    ]
     blocks.append(_crossover_table(selections))
     return Section("selection", "Which law to take", tuple(blocks))
+
+
+def _unsolved(selection: Selection) -> Callout:
+    """Why there is nothing to draw."""
+    laws = " nor ".join(law_name(law) for law in selection.laws)
+    text = (
+        f"At {held_text(selection.held, selection.boresight_angle)} and an eccentricity of "
+        f"{plain(selection.eccentricity)}, neither {laws} "
+        "has a solution all around any of these orbits: somewhere the beam misses the Earth, or "
+        "the pitch that zero Doppler needs exceeds the boresight's angle from nadir. A boresight "
+        "nearer to nadir, lower altitudes or a smaller eccentricity may have one."
+    )
+    return Callout(Status.WARNING, "No law can be taken", (text,))
 
 
 def _selection_figure(selection: Selection) -> Figure:
@@ -90,6 +106,8 @@ def _crossover_table(selections: Sequence[Selection]) -> Table:
 
 
 def _without_crossover(selection: Selection) -> str:
+    if not np.any(np.isfinite(selection.steering_angle)):
+        return "neither law has a solution"
     low, high = (fixed(float(f(selection.altitudes)) / 1e3, 0) for f in (np.min, np.max))
     return f"none between {low} and {high} km"
 

@@ -38,8 +38,15 @@ def _title(found: Sequence[LawRecord], exact: Sequence[Law]) -> str:
     if not exact:
         least = min(solvable, key=lambda record: record.residual)
         return f"Up to {frequency(least.residual)} is left {_with(least.law)}"
-    names = joined([law_name(law) for law in exact])
-    return f"Zero Doppler at the boresight with {names}"
+    names = [_named(record) for record in found if record.law in exact]
+    return f"Zero Doppler at the boresight with {joined(names)}"
+
+
+def _named(record: LawRecord) -> str:
+    """A law, and on how much of the orbit it has a solution where that is not all."""
+    if record.solved == 1.0:
+        return law_name(record.law)
+    return f"{law_name(record.law)} (on {share_solved(record.solved)} of the orbit only)"
 
 
 def _capital(text: str) -> str:

@@ -33,8 +33,14 @@ _DOUBTFUL_PROBABILITY = 0.9
 """Probability of unwrapping below which a verdict without a limit on it is a warning."""
 
 
-def optimize_verdict(result: OptimizeResult) -> tuple[Block, ...]:
-    """Verdict on a search."""
+def optimize_verdict(result: OptimizeResult, unseen: int = 0) -> tuple[Block, ...]:
+    """Verdict on a search.
+
+    Parameters
+    ----------
+    result : of the search.
+    unseen : targets that the pass does not see.
+    """
     best, initial = result.best, result.initial
     paragraphs: list[Text] = []
     if result.search.interrupted:
@@ -45,8 +51,8 @@ def optimize_verdict(result: OptimizeResult) -> tuple[Block, ...]:
             )
         )
     if best.feasible:
-        paragraphs.append((*_achieved(best), " ", _against(initial, best)))
-        status, title = Status.GOOD, f"Height error {meters(float(best.height_error.region))}"
+        paragraphs.append((*_achieved(best, unseen), " ", _against(initial, best)))
+        status, title = Status.GOOD, _title(best, unseen)
     else:
         paragraphs.append(
             "No formation that keeps every limit was found. Shown is the one that breaks them "
@@ -54,33 +60,56 @@ def optimize_verdict(result: OptimizeResult) -> tuple[Block, ...]:
         )
         status, title = Status.BAD, "No feasible formation"
     paragraphs += _remarks(result.problem, best)
-    if status is Status.GOOD and (result.search.interrupted or _doubtful(result.problem, best)):
+    doubtful = result.search.interrupted or unseen > 0 or _doubtful(result.problem, best)
+    if status is Status.GOOD and doubtful:
         status = Status.WARNING
-    return Callout(status, title, tuple(paragraphs)), _metrics(result.problem, best)
+    return Callout(status, title, tuple(paragraphs)), _metrics(result.problem, best, unseen)
 
 
-def evaluate_verdict(result: EvaluateResult) -> tuple[Block, ...]:
-    """Verdict on a given formation."""
+def evaluate_verdict(result: EvaluateResult, unseen: int = 0) -> tuple[Block, ...]:
+    """Verdict on a given formation.
+
+    Parameters
+    ----------
+    result : of the evaluation.
+    unseen : targets that the pass does not see.
+    """
     formation = result.formation
     if not measured(formation):
         status, title = Status.BAD, "No height is measured"
         paragraphs: list[Text] = []
     else:
-        title = f"Height error {meters(float(formation.height_error.region))}"
+        title = _title(formation, unseen)
         status = Status.GOOD if formation.feasible else Status.BAD
-        paragraphs = [_achieved(formation)]
+        paragraphs = [_achieved(formation, unseen)]
     paragraphs += _remarks(result.problem, formation)
-    if status is Status.GOOD and _doubtful(result.problem, formation):
+    if status is Status.GOOD and (unseen > 0 or _doubtful(result.problem, formation)):
         status = Status.WARNING
-    return Callout(status, title, tuple(paragraphs)), _metrics(result.problem, formation)
+    return Callout(status, title, tuple(paragraphs)), _metrics(result.problem, formation, unseen)
 
 
-def _achieved(formation: Assessment) -> tuple[str, ...]:
+def _title(formation: Assessment, unseen: int) -> str:
+    title = f"Height error {meters(float(formation.height_error.region))}"
+    return f"{title} over {_seen(formation, unseen)}" if unseen else title
+
+
+def _seen(formation: Assessment, unseen: int) -> str:
+    """How many of all targets a height error is of."""
+    seen = formation.height_error.total.size
+    return f"{seen} of {counted(seen + unseen, 'target')}"
+
+
+def _achieved(formation: Assessment, unseen: int) -> tuple[str, ...]:
     error = formation.height_error
+    scene = (
+        f"{_seen(formation, unseen)}, those that the pass sees"
+        if unseen
+        else f"{counted(error.total.size, 'segment')} of the scene"
+    )
     return (
         f"The {formation_name(formation.label)} measures height with an error of ",
         Strong(meters(float(error.region))),
-        f" (total, RMS over {counted(error.total.size, 'segment')} of the scene), of which ",
+        f" (total, RMS over {scene}), of which ",
         Strong(meters(float(error.relative_region))),
         " varies from pixel to pixel (relative error).",
     )
@@ -189,11 +218,12 @@ def _doubtful(problem: Problem, formation: Assessment) -> bool:
     return improbable or (decorrelation_neglected(problem) and incoherent_pairs(formation) > 0)
 
 
-def _metrics(problem: Problem, formation: Assessment) -> Metrics:
+def _metrics(problem: Problem, formation: Assessment, unseen: int) -> Metrics:
     error, unwrapping = formation.height_error, formation.unwrapping
     reason = unmeasured_reason(formation)
+    over = f"over {_seen(formation, unseen)}" if unseen else "of the scene"
     items = [
-        Metric("Height error", meters(float(error.region)), reason or "total, RMS of the scene"),
+        Metric("Height error", meters(float(error.region)), reason or f"total, RMS {over}"),
     ]
     if reason is None:
         relative = meters(float(error.relative_region))

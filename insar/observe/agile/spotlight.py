@@ -12,10 +12,10 @@ import numpy as np
 from .smooth_orbit import smooth_orbit
 from .spotlight_attitude import Antenna, attitude_profile, iterate
 from .spotlight_beam import aim_error, echo_history
-from .spotlight_plan import aim_point, plan_spotlight
-from .spotlight_results import SpotlightRequest, SpotlightResult, SpotlightScene
+from .spotlight_plan import plan_spotlight
+from .spotlight_results import SpotlightRequest, SpotlightResult
 from .spotlight_warnings import warnings_of
-from .staring import staring_scene
+from .staring import StaringScene, staring_scene
 
 
 def spotlight(request: SpotlightRequest, samples: int = 1001) -> SpotlightResult:
@@ -68,7 +68,7 @@ def spotlight(request: SpotlightRequest, samples: int = 1001) -> SpotlightResult
     return warnings_of(result)
 
 
-def spotlight_scene(result: SpotlightResult, segments: int = 11) -> SpotlightScene:
+def spotlight_scene(result: SpotlightResult, segments: int = 11) -> StaringScene:
     """Scene of a formation that watches the aim point over the imaging time.
 
     Parameters
@@ -78,7 +78,7 @@ def spotlight_scene(result: SpotlightResult, segments: int = 11) -> SpotlightSce
 
     Returns
     -------
-    SpotlightScene — every segment is the aim point; the line of sight turns from ahead to behind.
+    StaringScene — every segment is the aim point; the line of sight turns from ahead to behind.
 
     Raises
     ------
@@ -87,9 +87,8 @@ def spotlight_scene(result: SpotlightResult, segments: int = 11) -> SpotlightSce
     """
     plan, request = result.plan, result.request
     return staring_scene(
-        request.trajectory,
-        aim_point(request),
-        time=plan.time,
+        request,
+        plan,
         duration=plan.imaging_time,
         segments=segments,
     )

@@ -10,7 +10,7 @@ from enum import StrEnum
 import numpy as np
 from numpy.typing import NDArray
 
-from ..studies.claims import Relation, verdict
+from ..studies.claims import Relation, agreeing, verdict
 from ..studies.results import Claim
 from .spotlight_results import SpotlightResult
 
@@ -78,6 +78,7 @@ def judge_spotlight(claim: SpotlightClaim, result: SpotlightResult) -> Claim:
     Claim — not computable if the beam cannot be pointed at some sample.
     """
     value = _MEASURES[claim.quantity](result)
+    least, most = agreeing(claim.value, relation=claim.relation, tolerance=claim.tolerance)
     return Claim(
         text=claim.text,
         printed=claim.printed,
@@ -85,6 +86,8 @@ def judge_spotlight(claim: SpotlightClaim, result: SpotlightResult) -> Claim:
         unit=claim.unit,
         verdict=verdict(value, claim.value, relation=claim.relation, tolerance=claim.tolerance),
         note=claim.note,
+        least=least / claim.scale,
+        most=most / claim.scale,
     )
 
 

@@ -166,8 +166,9 @@ def _passages(request: SpotlightRequest, target: Array) -> _Passages:
         raise ValueError(_never(request, visible, window))
     if request.number > count:
         raise ValueError(
-            f"number = {request.number} but the aim point can be imaged on {count} passes in the "
-            "searched time; take one of them, or search longer"
+            f"number = {request.number}: the aim point can be imaged on {count} "
+            f"pass{'' if count == 1 else 'es'} in the searched time; take "
+            f"{'it' if count == 1 else 'one of them'}, or {window.longer}"
         )
     return visible
 
@@ -205,18 +206,20 @@ def _never(request: SpotlightRequest, found: _Passages, window: Window) -> str:
             else "too near to the horizon"
         )
         return start + (
-            f"the nearest of {len(found.time)} passes sees it at incidence {_degrees(value)}, "
+            f"the nearest of {len(found.time)} pass{'' if len(found.time) == 1 else 'es'} sees it "
+            f"at incidence {_degrees(value)}, "
             f"outside {_degrees(request.near_incidence)} to {_degrees(request.far_incidence)}, "
-            f"{why}; search longer"
+            f"{why}; {window.longer}"
         )
     if np.any(found.in_reach & found.on_side):
         heading = "southward" if request.direction is Direction.ASCENDING else "northward"
         return start + f"it is in reach only while the satellite flies {heading}; take either"
     wanted = LookSide(request.side or LookSide.LEFT)
     other = LookSide(-wanted).name.lower()
+    times = "once" if in_reach == 1 else f"{in_reach} times"
     return start + (
-        f"it is in reach {in_reach} times, but on the {other} of the flight direction; "
-        f"look {other}, to either side, or search longer"
+        f"it is in reach {times}, but on the {other} of the flight direction; "
+        f"look {other}, to either side, or {window.longer}"
     )
 
 
@@ -225,7 +228,7 @@ def _out_of_view(trajectory: Trajectory, window: Window) -> str:
     reach = float(np.max(np.abs(to_geodetic(states.position).latitude)))
     return (
         "it never sees the satellite above its horizon at zero Doppler; the satellite itself "
-        f"reaches latitudes of ±{_degrees(reach)}; search longer, or change the orbit"
+        f"reaches latitudes of ±{_degrees(reach)}; {window.longer}, or change the orbit"
     )
 
 

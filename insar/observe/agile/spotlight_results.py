@@ -11,9 +11,9 @@ from typing import Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from formation import Orbit, Trajectory
+from formation import Trajectory
 
-from ...scene import LookSide, Scene
+from ...scene import LookSide
 from ..scenes.passes import Direction
 from ..studies.results import Claim
 
@@ -306,18 +306,3 @@ class SpotlightResult:
     orbit_misfit: float
     warnings: tuple[str, ...]
     claims: tuple[Claim, ...] = ()
-
-
-class SpotlightScene(NamedTuple):
-    """The imaging as a scene for a formation: one aim point seen from the whole aperture.
-
-    Attributes
-    ----------
-    scene : segments in order of time, the first at time 0.
-    orbit : circular reference orbit of the formation.
-    epoch : UTC of the first segment.
-    """
-
-    scene: Scene
-    orbit: Orbit
-    epoch: datetime

@@ -2,44 +2,79 @@
 
 from __future__ import annotations
 
+from datetime import datetime
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
-from formation import Trajectory, reference_orbit
+from formation import Orbit, mean_elements_at, reference_orbit
 
 from ...scene import Scene
 from ..frames import rtn_axes
 from ..look import look_at
 from ..scenes.windows import moment
 from ..vectors import rotate, unit
-from .spotlight_results import SpotlightScene
+from .spotlight_plan import aim_point
+from .spotlight_results import SpotlightPlan, SpotlightRequest
 
 Array = NDArray[np.float64]
 
 
+class StaringScene(NamedTuple):
+    """One place watched for a while, as a scene for a formation.
+
+    Attributes
+    ----------
+    scene : segments in order of time, the first at time 0.
+    orbit : circular reference orbit of the formation.
+    epoch : UTC of the first segment, the epoch of the formation's states.
+    eccentricity : scalar — mean, of the orbit.
+    request : place and orbit.
+    plan : moment of zero Doppler, the middle of the scene; side, direction and number of the pass.
+    duration : scalar — from the first segment to the last [s].
+    """
+
+    scene: Scene
+    orbit: Orbit
+    epoch: datetime
+    eccentricity: float
+    request: SpotlightRequest
+    plan: SpotlightPlan
+    duration: float
+
+    @property
+    def orbit_source(self) -> str:
+        """What the orbit is known from."""
+        return self.request.trajectory.source
+
+    @property
+    def orbit_epoch(self) -> datetime:
+        """UTC of its elements, or of the beginning of its ephemeris."""
+        return self.request.trajectory.epoch
+
+
 def staring_scene(
-    trajectory: Trajectory,
-    target: Array,
+    request: SpotlightRequest,
+    plan: SpotlightPlan,
     *,
-    time: float,
     duration: float,
     segments: int,
     slope: float = 0.0,
-) -> SpotlightScene:
+) -> StaringScene:
     """Scene of a formation that watches one place.
 
     Parameters
     ----------
-    trajectory : of the formation.
-    target : (3,) — the place, Earth-fixed [m].
-    time : scalar — of the middle, since the trajectory's epoch [s].
+    request : the place, and the orbit of the formation.
+    plan : when it is seen; zero Doppler is the middle.
     duration : scalar — from the first segment to the last [s].
     segments : moments, equally spaced, both ends included; one is the middle.
     slope : scalar — of the terrain in range, positive towards the radar [rad].
 
     Returns
     -------
-    SpotlightScene — every segment is the place; the line of sight turns from ahead to behind.
+    StaringScene — every segment is the place; the line of sight turns from ahead to behind.
 
     Raises
     ------
@@ -49,9 +84,9 @@ def staring_scene(
     if segments < 1:
         raise ValueError(f"segments = {segments!r} must be at least 1")
     half = 0.5 * duration if segments > 1 else 0.0
-    times = time + np.linspace(-half, half, segments)
+    trajectory, times = request.trajectory, plan.time + np.linspace(-half, half, segments)
     states = trajectory.earth_fixed(times)
-    look = look_at(states, target)
+    look = look_at(states, aim_point(request))
     if not np.all(look.visible):
         raise ValueError(
             f"the place sees the satellite in {np.count_nonzero(look.visible)} of {segments} "
@@ -67,4 +102,12 @@ def staring_scene(
         slope=np.asarray(slope),
     )
     first = float(times[0])
-    return SpotlightScene(scene, reference_orbit(trajectory, first), moment(trajectory, first))
+    return StaringScene(
+        scene=scene,
+        orbit=reference_orbit(trajectory, first),
+        epoch=moment(trajectory, first),
+        eccentricity=float(mean_elements_at(trajectory, first).eccentricity),
+        request=request,
+        plan=plan,
+        duration=2.0 * half,
+    )

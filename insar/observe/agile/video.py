@@ -16,8 +16,8 @@ from formation import States
 
 from .smooth_orbit import SmoothOrbit, smooth_orbit
 from .spotlight_plan import aim_point, plan_spotlight
-from .spotlight_results import SpotlightPlan, SpotlightScene
-from .staring import staring_scene
+from .spotlight_results import SpotlightPlan
+from .staring import StaringScene, staring_scene
 from .video_attitude import hold, staring_profile
 from .video_footprint import distortion, footprint_map, footprints, pointing_effect
 from .video_frames import LONGEST, cut_frames, effective_speed, frame_length
@@ -83,7 +83,7 @@ def video(request: VideoRequest, samples: int = 1001, outlines: int = 101) -> Vi
     return warnings_of(result)
 
 
-def video_scene(result: VideoResult, segments: int = 11) -> SpotlightScene:
+def video_scene(result: VideoResult, segments: int = 11) -> StaringScene:
     """Scene of a formation that watches the aim point over the film.
 
     Parameters
@@ -93,7 +93,7 @@ def video_scene(result: VideoResult, segments: int = 11) -> SpotlightScene:
 
     Returns
     -------
-    SpotlightScene — every segment is the aim point, seen from ahead to behind.
+    StaringScene — every segment is the aim point, seen from ahead to behind.
 
     Raises
     ------
@@ -102,9 +102,8 @@ def video_scene(result: VideoResult, segments: int = 11) -> SpotlightScene:
     """
     request = result.request
     return staring_scene(
-        request.trajectory,
-        aim_point(request.as_spotlight()),
-        time=result.plan.time,
+        request.as_spotlight(),
+        result.plan,
         duration=request.duration,
         segments=segments,
     )

@@ -170,6 +170,7 @@ def judge(
         raise ValueError(f"the claim {claim.text!r} needs a compensation; add one to the study")
     else:
         value = _of_compensation(claim, compensation)
+    least, most = agreeing(claim.value, relation=claim.relation, tolerance=claim.tolerance)
     note = claim.note
     if math.isnan(value):
         reason = _reason(claim, cases, selections, compensation)
@@ -181,6 +182,8 @@ def judge(
         unit=claim.unit,
         verdict=verdict(value, claim.value, relation=claim.relation, tolerance=claim.tolerance),
         note=note,
+        least=least / claim.scale,
+        most=most / claim.scale,
     )
 
 
@@ -217,6 +220,20 @@ def verdict(computed: float, printed: float, *, relation: Relation, tolerance: f
     above = computed - printed
     miss = {Relation.EQUALS: abs(above), Relation.AT_MOST: above, Relation.AT_LEAST: -above}
     return Verdict.HOLDS if miss[relation] <= tolerance else Verdict.FAILS
+
+
+def agreeing(printed: float, *, relation: Relation, tolerance: float) -> tuple[float, float]:
+    """Between which a computed figure agrees with a printed one, all in one unit.
+
+    Parameters
+    ----------
+    printed : scalar.
+    relation : how the printed figure limits the computed one.
+    tolerance : by which the computed one may miss it.
+    """
+    least = -math.inf if relation is Relation.AT_MOST else printed - tolerance
+    most = math.inf if relation is Relation.AT_LEAST else printed + tolerance
+    return least, most
 
 
 # -- of a case -----------------------------------------------------------------------------------

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import NamedTuple
@@ -254,6 +255,8 @@ class Claim(NamedTuple):
     unit : its unit; empty for none.
     verdict : by the tolerance that the study states.
     note : why, in words; may be empty.
+    least, most : between which the computed figure agrees, by the tolerance, in the unit of the
+        claim; infinite where there is no limit.
     """
 
     text: str
@@ -262,6 +265,8 @@ class Claim(NamedTuple):
     unit: str
     verdict: Verdict
     note: str
+    least: float = -math.inf
+    most: float = math.inf
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
