@@ -573,3 +573,15 @@ def test_han_2016_roll_needs_a_pass_without_drift():
     assert 0.09 < swings[30.0] < 0.11
     assert 0.05 < swings[60.0] < 0.065
     assert 2.0 * HAN["printed"]["roll_range_deg"] < swings[85.0]
+
+
+def test_a_resolution_that_is_missed_is_said():
+    """At L band the aperture is so long that its Doppler bends: 0.08 m instead of 0.05 m."""
+    request = dataclasses.replace(
+        request_seen(low_orbit(), look=math.radians(30.0)), wavelength=0.24, resolution=0.05
+    )
+    result = spotlight(request)
+    assert result.history.resolution > 0.06
+    assert any("m asked for" in text for text in result.warnings)
+    fine = spotlight(dataclasses.replace(request, wavelength=0.031, resolution=1.0))
+    assert not any("m asked for" in text for text in fine.warnings)

@@ -51,7 +51,7 @@ def run(study: CoverageStudy, setup: CoverageSetup, options: Options) -> Outcome
         search=search,
         warnings=() if search is None or setup.search is None else _warnings(search, setup.search),
     )
-    return Outcome(result=result, summary=_summary(simulations))
+    return Outcome(result=result, summary=_summary(simulations)._replace(warnings=result.warnings))
 
 
 def _search(task: SearchTask, visibility: Visibility) -> WalkerSearch:

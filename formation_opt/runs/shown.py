@@ -29,6 +29,22 @@ def hertz(value: float) -> str:
     return "0 Hz" if value < ROUNDING else f"{value:.3g} Hz" if value < 100.0 else f"{value:.0f} Hz"
 
 
+def agility(exceeded: NDArray[np.bool_], rates: NDArray[np.float64], *, limited: bool) -> str:
+    """Whether a satellite can turn as it must; not known where the attitude is not.
+
+    Parameters
+    ----------
+    exceeded : (S,) — whether a limit is exceeded.
+    rates : (S, 3) — of the body [rad/s].
+    limited : whether there is any limit.
+    """
+    if not limited:
+        return "no limits given"
+    if np.any(exceeded):
+        return "exceeded"
+    return "kept" if np.all(np.isfinite(rates)) else "not known"
+
+
 def moment(time: datetime) -> str:
     """A moment in UTC, to the nearest second."""
     return f"{time + timedelta(milliseconds=500):%Y-%m-%d %H:%M:%S} UTC"

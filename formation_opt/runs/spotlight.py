@@ -5,8 +5,6 @@ from __future__ import annotations
 import dataclasses
 import math
 
-import numpy as np
-
 from configs import SpotlightStudy
 from configs.staring import SpotlightSetup
 from insar.observe.agile.spotlight import spotlight
@@ -14,7 +12,7 @@ from insar.observe.agile.spotlight_claims import judge_spotlight
 from insar.observe.agile.spotlight_results import SpotlightResult
 
 from .outcome import Options, Outcome, Summary
-from .shown import largest, largest_degrees, moment
+from .shown import agility, largest, largest_degrees, moment
 
 
 def run(study: SpotlightStudy, setup: SpotlightSetup, options: Options) -> Outcome:
@@ -38,6 +36,8 @@ def run(study: SpotlightStudy, setup: SpotlightSetup, options: Options) -> Outco
 def _summary(result: SpotlightResult) -> Summary:
     """When, for how long, how sharp, and what it takes."""
     plan, profile, history = result.plan, result.profile, result.history
+    exceeded = profile.rate_exceeded | profile.acceleration_exceeded
+    limited = result.request.agility is not None
     side = plan.side.name.lower()
     heading = "northward" if plan.ascending else "southward"
     rows = (
@@ -51,13 +51,11 @@ def _summary(result: SpotlightResult) -> Summary:
         ("largest roll", f"{largest_degrees(profile.roll)}°"),
         ("largest rate, inertial", f"{largest_degrees(profile.rate_inertial)}°/s"),
         ("largest acceleration, inertial", f"{largest_degrees(profile.acceleration_inertial)}°/s²"),
-        ("agility", _agility(result)),
+        ("agility", agility(exceeded, profile.rate_inertial, limited=limited)),
         ("largest aim error", f"{largest(result.aim_error.closed_form):.1e} m"),
     )
-    return Summary(headings=("spotlight",), rows=tuple((label, (text,)) for label, text in rows))
-
-
-def _agility(result: SpotlightResult) -> str:
-    profile = result.profile
-    exceeded = np.any(profile.rate_exceeded | profile.acceleration_exceeded)
-    return "exceeded" if exceeded else "kept"
+    return Summary(
+        headings=("spotlight",),
+        rows=tuple((label, (text,)) for label, text in rows),
+        warnings=result.warnings,
+    )

@@ -13,7 +13,7 @@ from insar.observe.agile.video import video
 from insar.observe.agile.video_results import VideoResult
 
 from .outcome import Options, Outcome, Summary
-from .shown import largest_degrees, moment
+from .shown import agility, largest_degrees, moment
 
 
 def run(study: VideoStudy, setup: VideoSetup, options: Options) -> Outcome:
@@ -32,7 +32,8 @@ def run(study: VideoStudy, setup: VideoSetup, options: Options) -> Outcome:
 def _summary(result: VideoResult) -> Summary:
     """When, how many frames, what it takes, and what the yaw law leaves."""
     plan, profile, frames, left = result.plan, result.profile, result.frames, result.distortion
-    exceeded = np.any(profile.rate_exceeded | profile.acceleration_exceeded)
+    exceeded = profile.rate_exceeded | profile.acceleration_exceeded
+    limited = result.request.agility is not None
     rows = (
         ("zero Doppler", moment(plan.epoch)),
         ("incidence", f"{math.degrees(plan.incidence):.2f}°"),
@@ -42,13 +43,17 @@ def _summary(result: VideoResult) -> Summary:
         ("largest pitch", f"{largest_degrees(profile.pitch)}°"),
         ("largest yaw", f"{largest_degrees(profile.yaw)}°"),
         ("largest rate, inertial", f"{largest_degrees(profile.rate_inertial)}°/s"),
-        ("agility", "exceeded" if exceeded else "kept"),
+        ("agility", agility(exceeded, profile.rate_inertial, limited=limited)),
         ("azimuth trace turns by", f"{largest_degrees(left.azimuth_trace)}°"),
         ("range trace turns by", f"{largest_degrees(left.range_trace)}°"),
         ("shear of the footprint", f"{largest_degrees(left.shear)}°"),
     )
     law = result.request.yaw_law.value.replace("_", " ")
-    return Summary(headings=(law,), rows=tuple((label, (text,)) for label, text in rows))
+    return Summary(
+        headings=(law,),
+        rows=tuple((label, (text,)) for label, text in rows),
+        warnings=result.warnings,
+    )
 
 
 def _least(values: NDArray[np.float64]) -> float:

@@ -17,6 +17,10 @@ LARGEST_MISFIT = 1e-3
 """Of the smooth orbit that goes unmentioned: 1e-9 rad of attitude, in low orbit [m]."""
 
 
+COARSER = 1.02
+"""Ratio of the resolution that is reached to the one asked for that goes unmentioned."""
+
+
 def warnings_of(result: SpotlightResult) -> SpotlightResult:
     """The same result with its warnings.
 
@@ -59,6 +63,13 @@ def warnings_of(result: SpotlightResult) -> SpotlightResult:
             "take a larger incidence or a coarser resolution",
         ),
     ]
+    asked, reached = result.request.resolution, result.history.resolution
+    if reached > COARSER * asked:
+        found.append(
+            f"the imaging resolves {reached:.4g} m and not the {asked:.4g} m asked for: its time "
+            "is that of a straight Doppler history, and this one bends; ask for a finer "
+            "resolution, or give a longer duration"
+        )
     if result.orbit_misfit > LARGEST_MISFIT:
         found.append(
             f"the orbit is smooth to {result.orbit_misfit:.1e} m only over the imaging: attitude "
