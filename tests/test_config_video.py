@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from pathlib import Path
 
 import numpy as np
@@ -281,3 +282,14 @@ def test_the_effective_text_says_everything(tmp_path):
     (tmp_path / "copy.yaml").write_text(text, encoding="utf-8")
     assert load_study(tmp_path / "copy.yaml").study == original
     assert "direction: either" in text
+
+
+def test_a_satellite_that_falls_behind_the_earth_is_refused(tmp_path):
+    """At geosynchronous height the line of zero Doppler may move backward over the place."""
+    text = example_text("liang2018_video")
+    for key, value in (("altitude_km", 35786), ("inclination_deg", 60), ("search_days", 5)):
+        text = re.sub(rf"{key}: \S+", f"{key}: {value}", text, count=1)
+    file = tmp_path / "my.yaml"
+    file.write_text(text, encoding="utf-8")
+    with pytest.raises(BuildError, match="falls behind the Earth's rotation"):
+        build_video(load_study(file).study)

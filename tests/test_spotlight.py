@@ -585,3 +585,14 @@ def test_a_resolution_that_is_missed_is_said():
     assert any("m asked for" in text for text in result.warnings)
     fine = spotlight(dataclasses.replace(request, wavelength=0.031, resolution=1.0))
     assert not any("m asked for" in text for text in fine.warnings)
+
+
+@pytest.mark.parametrize("factor", [0.7, 0.95])
+def test_a_sliding_beam_at_a_large_incidence_sees_its_place(factor):
+    """Its rotation center lies far below the ground, where no horizon is to be asked for."""
+    request = dataclasses.replace(
+        request_seen(low_orbit(), look=math.radians(53.0)), sliding_factor=factor
+    )
+    profile = spotlight(request).profile
+    assert np.all(profile.pointing == Pointing.SOLVED)
+    assert np.all(np.isfinite(profile.rate_inertial))

@@ -12,7 +12,7 @@ import numpy as np
 from .smooth_orbit import smooth_orbit
 from .spotlight_attitude import Antenna, attitude_profile, iterate
 from .spotlight_beam import aim_error, echo_history
-from .spotlight_plan import plan_spotlight
+from .spotlight_plan import aim_point, plan_spotlight
 from .spotlight_results import SpotlightRequest, SpotlightResult
 from .spotlight_warnings import warnings_of
 from .staring import StaringScene, staring_scene
@@ -45,7 +45,12 @@ def spotlight(request: SpotlightRequest, samples: int = 1001) -> SpotlightResult
     times = np.linspace(-0.5 * duration, 0.5 * duration, samples)
     antenna = Antenna.of(request)
     profile = attitude_profile(
-        orbit, plan.time + times, plan.rotation_center, antenna, agility=request.agility
+        orbit,
+        plan.time + times,
+        plan.rotation_center,
+        antenna,
+        place=aim_point(request),
+        agility=request.agility,
     )
     iteration = iterate(
         orbit,

@@ -101,6 +101,7 @@ def attitude_profile(
     target: Array,
     antenna: Antenna,
     *,
+    place: Array | None = None,
     agility: Agility | None = None,
 ) -> AttitudeProfile:
     """Attitude, rates and accelerations while the beam stays on a point.
@@ -111,6 +112,8 @@ def attitude_profile(
     times : (S,) — since the trajectory's epoch [s].
     target : (3,) — where the beam points, Earth-fixed [m].
     antenna : beam and phase center.
+    place : (3,) — point on the ground that must see the satellite, Earth-fixed [m]; the target if
+        None. The target of a sliding beam lies below the ground.
     agility : limits; None for none.
 
     Returns
@@ -120,7 +123,8 @@ def attitude_profile(
     """
     states = orbit.states(times)
     now = point(orbit, times, target, antenna)
-    pointing = _pointing(look_at(states, target).visible, now.attitude)
+    visible = look_at(states, target if place is None else place).visible
+    pointing = _pointing(visible, now.attitude)
     mask = np.where(pointing == Pointing.SOLVED, 0.0, np.nan)
     step = _DIFFERENCE * float(
         np.min(np.linalg.norm(target - states.position, axis=-1))

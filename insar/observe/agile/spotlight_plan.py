@@ -53,6 +53,13 @@ def plan_spotlight(request: SpotlightRequest) -> SpotlightPlan:
     look = look_at(states, target)
     rate = doppler_rate(states, target, wavelength=request.wavelength, acceleration=acceleration)
     speed = ground_speed(states, acceleration, target)
+    if not (speed > 0.0 and rate < 0.0):
+        raise ValueError(
+            f"the line of zero Doppler moves over the aim point at {float(speed):.4g} m/s with a "
+            f"Doppler rate of {float(rate):.4g} Hz/s: the satellite falls behind the Earth's "
+            "rotation there, and no aperture forms as in low orbit; choose a lower orbit or "
+            "another pass"
+        )
     aperture = float(request.weighting * speed / (request.resolution * abs(rate)))
     # A point of the scene is seen for the aperture time while a beam as wide as that takes slides
     # over it; both ends of the scene are seen after this much more.
