@@ -31,7 +31,7 @@ def _pass(observation: Observation) -> Json:
         "reference": observation.reference.value,
         "ascending": observation.ascending,
         "passes": observation.passes,
-        "pass_number": observation.revolution,
+        "pass_number": observation.pass_number,
         "near_incidence_rad": finite(observation.near_incidence),
         "far_incidence_rad": finite(observation.far_incidence),
         "segments": _segments(observation),

@@ -116,7 +116,7 @@ def test_every_key_of_an_observation_counts(observation):
     )
     assert seen.boresight == FixedLook(math.radians(33.0))
     assert seen.epoch >= datetime(2026, 4, 1, tzinfo=UTC)
-    assert seen.revolution == 2
+    assert seen.pass_number == 2
     np.testing.assert_allclose(np.degrees([seen.near_incidence, seen.far_incidence]), [15, 60])
     np.testing.assert_allclose(np.degrees(seen.scene.slope), 4.0)
 

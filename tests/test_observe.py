@@ -255,7 +255,7 @@ def test_no_pass_is_missed():
 
 def test_passes_are_numbered_in_time_and_any_can_be_taken():
     observations = [seen(SIMPLE, SUMMIT, stop=4 * DAY, number=n + 1) for n in range(4)]
-    assert [o.revolution for o in observations] == [1, 2, 3, 4]
+    assert [o.pass_number for o in observations] == [1, 2, 3, 4]
     assert all(o.passes == observations[0].passes for o in observations)
     epochs = [o.epoch for o in observations]
     assert epochs == sorted(epochs)
@@ -307,7 +307,7 @@ def test_a_later_pass_that_sees_more_is_preferred():
     best = seen(SIMPLE, both, stop=4 * DAY)
     assert len(first.scene) == 1
     assert len(best.scene) == 2
-    assert best.revolution > 1
+    assert best.pass_number > 1
     assert abs(best.epoch - second.epoch) < timedelta(seconds=60)
 
 

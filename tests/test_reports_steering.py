@@ -421,7 +421,7 @@ def make_observation(
         eccentricity=1.1e-3,
         ascending=True,
         passes=3,
-        revolution=2,
+        pass_number=2,
         latitude=lat,
         longitude=np.full(segments, lon0),
         height=np.zeros(segments),

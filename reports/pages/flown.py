@@ -38,8 +38,9 @@ def eccentricity_block(eccentricity: float) -> Block:
     text = (
         f"The orbit has a mean eccentricity of {fixed(eccentricity, 5)}. The geometry is that of "
         "the orbit as it is, but the satellites move relative to each other as about a circle of "
-        "the same mean semi-major axis (Clohessy-Wiltshire): this leaves out terms of the order "
-        f"of the eccentricity, some {percent(eccentricity)} of the relative positions."
+        "the same mean semi-major axis (Clohessy-Wiltshire): right at the epoch, relative "
+        f"positions are wrong by up to {percent(3.0 * eccentricity)} of their size within a "
+        "revolution."
     )
     if eccentricity < _ECCENTRIC:
         return Paragraph(text)

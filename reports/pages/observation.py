@@ -140,7 +140,7 @@ def _pass(observation: Observation) -> list[tuple[str, str]]:
     return [
         ("epoch of the formation's states", f"{_moment(observation)} UTC, the first segment"),
         *orbit_rows(observation),
-        ("pass", f"{observation.revolution} of {observation.passes} found in the time searched"),
+        ("pass", f"{observation.pass_number} of {observation.passes} found in the time searched"),
         (
             "direction",
             f"{_direction(observation)} at the first segment"

@@ -116,7 +116,7 @@ def record(
         eccentricity=float(mean_elements_at(trajectory, first).eccentricity),
         ascending=bool(trajectory.earth_fixed(np.median(observed)).velocity[2] > 0.0),
         passes=passes,
-        revolution=number,
+        pass_number=number,
         latitude=seen.latitude,
         longitude=seen.longitude,
         height=seen.height,

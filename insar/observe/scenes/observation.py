@@ -45,7 +45,7 @@ class Observation:
     eccentricity : scalar — mean, of the orbit.
     ascending : whether the satellite flies northward.
     passes : how many passes of the searched time see any target.
-    revolution : number of the chosen pass, from 1.
+    pass_number : number of the chosen pass, from 1.
     latitude, longitude, height : (S,) — geodetic, of the segments [rad, rad, m].
     doppler : (S,) — Doppler centroid of each segment as observed [Hz].
     off_boresight : (S,) — elevation off the boresight as observed, positive away from nadir [rad].
@@ -69,7 +69,7 @@ class Observation:
     eccentricity: float
     ascending: bool
     passes: int
-    revolution: int
+    pass_number: int
     latitude: Array
     longitude: Array
     height: Array
