@@ -4,6 +4,8 @@ Stands alone: it takes arrays of satellite positions and knows no orbit, study o
 Vectors are RTN (R radial outward, T along-track, N along the orbit normal); SI and radians.
 """
 
+from .accuracy import Cell, HeightAccuracy, height_accuracy
+from .atmosphere import Ionosphere
 from .baselines import (
     PairGeometry,
     critical_baseline,
@@ -12,6 +14,7 @@ from .baselines import (
     pair_geometry,
     scene_critical_baseline,
 )
+from .calibration import Calibration
 from .coherence import common_band, snr_coherence
 from .errors import (
     BaselineDecorrelation,
@@ -37,11 +40,15 @@ from .unwrapping import (
 
 __all__ = [
     "BaselineDecorrelation",
+    "Calibration",
+    "Cell",
     "ErrorBudget",
     "ErrorSource",
+    "HeightAccuracy",
     "HeightError",
     "HeightStatus",
     "HeldConstant",
+    "Ionosphere",
     "LookSide",
     "PairGeometry",
     "PhaseModel",
@@ -55,6 +62,7 @@ __all__ = [
     "critical_baseline",
     "filtered_information",
     "fisher_information",
+    "height_accuracy",
     "height_error",
     "height_error_of",
     "height_of_ambiguity",

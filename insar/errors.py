@@ -7,6 +7,20 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import NamedTuple
 
+from .atmosphere import Ionosphere
+from .calibration import Calibration
+from .scale import Scale
+
+__all__ = [
+    "BaselineDecorrelation",
+    "ErrorBudget",
+    "ErrorSource",
+    "HeldConstant",
+    "Scale",
+    "SharedBy",
+    "Weighting",
+]
+
 
 class SharedBy(StrEnum):
     """Which measurements carry one and the same error."""
@@ -19,15 +33,6 @@ class SharedBy(StrEnum):
     """Every pair of images has its own, as if it were measured apart (Li 2009)."""
     ALL = "all"
     """All images have the same."""
-
-
-class Scale(StrEnum):
-    """How far an error stays the same on the ground."""
-
-    PIXEL = "pixel"
-    """Random from pixel to pixel: part of the relative height error."""
-    SCENE = "scene"
-    """The same over the scene: an offset or tilt of the height, part of the total only."""
 
 
 class Weighting(StrEnum):
@@ -79,6 +84,7 @@ _MAY_BE_SHARED_BY = {
     "azimuth": (SharedBy.ALL, SharedBy.PAIR),
     "synchronization": (SharedBy.IMAGE, SharedBy.PAIR),
     "range": (SharedBy.ALL,),
+    "troposphere": (SharedBy.ALL,),
 }
 
 
@@ -96,6 +102,12 @@ class ErrorBudget:
     range : error of the slant range, common to ``all`` images [m].
     synchronization : residual phase of each bistatic link (an image whose transmitter is not its
         receiver), by ``image``, or by ``pair`` [rad].
+    troposphere : zenith delay that is left after its correction, or all of it where there is none,
+        common to ``all`` images [m]; see `insar.atmosphere`.
+    ionosphere : what is not known of the ionosphere; None neglects it.
+    calibration : how the heights are adjusted to control points afterwards; None for not at all.
+        It leaves `HeightError` alone, which is of one scene before any adjustment, and acts in
+        `insar.accuracy`.
     weighting : what the estimate takes for independent.
     baseline_decorrelation : what a perpendicular baseline costs in coherence.
     held_constant : what a target keeps while its height changes.
@@ -118,6 +130,9 @@ class ErrorBudget:
     azimuth: ErrorSource = field(default=ErrorSource(0.0, SharedBy.ALL))
     range: ErrorSource = field(default=ErrorSource(0.0, SharedBy.ALL))
     synchronization: ErrorSource = field(default=ErrorSource(0.0, SharedBy.IMAGE))
+    troposphere: ErrorSource = field(default=ErrorSource(0.0, SharedBy.ALL, Scale.DATA_TAKE))
+    ionosphere: Ionosphere | None = None
+    calibration: Calibration | None = None
     weighting: Weighting = Weighting.JOINT
     baseline_decorrelation: BaselineDecorrelation = BaselineDecorrelation.FILTERED
     held_constant: HeldConstant = HeldConstant.DOPPLER
@@ -145,6 +160,14 @@ class ErrorBudget:
                 raise ValueError(
                     f"phase_std = {self.phase_std!r} is a pair's: it needs the weighting 'pairs'"
                 )
+
+    @property
+    def common_scales(self) -> dict[str, Scale]:
+        """Scale of each of `insar.height.common_height_errors`."""
+        scales = {"range": self.range.scale, "troposphere": self.troposphere.scale}
+        if self.ionosphere is not None:
+            scales |= dict.fromkeys(("ionosphere", "ionosphere_gradient"), self.ionosphere.scale)
+        return scales
 
     @classmethod
     def li2009(

@@ -8,6 +8,11 @@ from enum import IntEnum
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .atmosphere import (
+    ionospheric_gradient_height_error,
+    ionospheric_height_error,
+    tropospheric_height_error,
+)
 from .errors import ErrorBudget, Scale
 from .phase_model import PhaseModel, phase_model
 from .radar import Radar
@@ -96,7 +101,8 @@ def height_error(
 
     Notes
     -----
-    The variance of the best linear unbiased estimate, e² = 1/J + cos²θ_inc σ_r², with the
+    The variance of the best linear unbiased estimate, e² = 1/J + cos²θ_inc σ_r² (and the squares of
+    the other `common_height_errors`), with the
     information J = kzᵀ(X⁻¹ + FFᵀ)⁻¹kz of the phases (noise X⁻¹, shared errors FFᵀ) in the form
     kzᵀ(X − XF(I + FᵀXF)⁻¹FᵀX)kz, which needs no inverse of X: images without a common band, and
     a zero baseline, are no special case. Li 2009 eqs (5)-(7) state the same estimate with an
@@ -133,20 +139,8 @@ def height_error_of(
     -------
     HeightError — of (..., S) arrays.
     """
-    kz, information = model.vertical_wavenumber, model.information
-    weighted = _product(information, kz)
-    sources = list(model.nuisance)
-    residual, shared = kz, {}
-    if sources:
-        factor = np.concatenate([model.nuisance[name] for name in sources], axis=-1)
-        transposed = np.swapaxes(factor, -1, -2)
-        normal = transposed @ (information @ factor)
-        index = np.arange(factor.shape[-1])
-        normal[..., index, index] += 1.0
-        amplitude = np.linalg.solve(normal, _product(transposed, weighted)[..., None])[..., 0]
-        residual = kz - _product(factor, amplitude)
-        splits = np.cumsum([model.nuisance[name].shape[-1] for name in sources])[:-1]
-        shared = dict(zip(sources, np.split(amplitude, splits, axis=-1), strict=True))
+    kz = model.vertical_wavenumber
+    residual, shared = _residual_and_amplitudes(model)
     # J = kzᵀX(kz − Fa) as the sum of what each source leaves, (kz − Fa)ᵀX(kz − Fa) + aᵀa: the same
     # number, without the cancellation where shared errors exceed the noise by far.
     variance = _noise_variances(model, residual, radar)
@@ -164,10 +158,10 @@ def height_error_of(
     squared = {
         name: np.where(measured, value * inverse**2, np.inf) for name, value in variance.items()
     }
-    # A target moved along û at a fixed direction rises by û·up = −cos θ_inc.
-    range_error = np.sum(scene.line_of_sight * scene.vertical, axis=-1) * errors.range.std
-    squared["range"] = np.broadcast_to(range_error**2, fisher.shape)
-    total = np.where(measured, inverse + squared["range"], np.inf)
+    common = common_height_errors(scene, radar=radar, errors=errors)
+    squared |= {name: np.broadcast_to(error**2, fisher.shape) for name, error in common.items()}
+    shifts = sum((error**2 for error in common.values()), start=np.zeros(len(scene)))
+    total = np.where(measured, inverse + shifts, np.inf)
     relative = sum(
         (value for name, value in squared.items() if model.scale[name] is Scale.PIXEL),
         start=np.zeros_like(total),
@@ -178,6 +172,86 @@ def height_error_of(
         terms={name: np.sqrt(value) for name, value in squared.items()},
         status=status,
     )
+
+
+def common_height_errors(scene: Scene, *, radar: Radar, errors: ErrorBudget) -> dict[str, Array]:
+    """Errors that move the height directly, whatever the formation.
+
+    Parameters
+    ----------
+    scene : the S segments.
+    radar : the radar.
+    errors : the error budget.
+
+    Returns
+    -------
+    source → (S,) — height by one standard deviation of the source, signed [m]: always ``range``;
+    ``troposphere``, ``ionosphere`` and ``ionosphere_gradient`` where the budget has them. Their
+    squares add to 1/J.
+    """
+    # A target moved along û at a fixed direction rises by û·up = −cos θ_inc.
+    rise = np.sum(scene.line_of_sight * scene.vertical, axis=-1)
+    common = {"range": np.asarray(rise * errors.range.std)}
+    if errors.troposphere.std > 0.0:
+        common["troposphere"] = tropospheric_height_error(
+            errors.troposphere.std, incidence=scene.incidence
+        )
+    ionosphere = errors.ionosphere
+    if ionosphere is not None:
+        wavelength, shell = radar.wavelength, ionosphere.shell_height
+        if ionosphere.electrons > 0.0:
+            common["ionosphere"] = ionospheric_height_error(
+                ionosphere.electrons,
+                wavelength=wavelength,
+                incidence=scene.incidence,
+                shell_height=shell,
+            )
+        if ionosphere.gradient > 0.0:
+            common["ionosphere_gradient"] = ionospheric_gradient_height_error(
+                ionosphere.gradient,
+                wavelength=wavelength,
+                incidence=scene.incidence,
+                shell_height=shell,
+            )
+    return common
+
+
+def shared_height_responses(model: PhaseModel) -> dict[str, Array]:
+    """Height by one standard deviation of each error that images share, at the total's weights.
+
+    Parameters
+    ----------
+    model : the phase model of the designs.
+
+    Returns
+    -------
+    source → (..., S, R) — dh/dε_s, signed [m], of the R independent components of the source;
+    NaN where no height is measured. The root of the sum of squares is `HeightError.terms`, and
+    the signs tell how the errors of two points are correlated.
+    """
+    residual, shared = _residual_and_amplitudes(model)
+    noise = np.sum(residual * _product(model.information, residual), axis=-1)
+    fisher = sum((np.sum(part**2, axis=-1) for part in shared.values()), start=noise)
+    inverse = 1.0 / np.where(fisher < _NO_INFORMATION, np.nan, fisher)
+    return {name: part * inverse[..., None] for name, part in shared.items()}
+
+
+def _residual_and_amplitudes(model: PhaseModel) -> tuple[Array, dict[str, Array]]:
+    """Solve for kz − Fa and, source by source, a = (I + FᵀXF)⁻¹FᵀXkz."""
+    kz, information = model.vertical_wavenumber, model.information
+    sources = list(model.nuisance)
+    if not sources:
+        return kz, {}
+    factor = np.concatenate([model.nuisance[name] for name in sources], axis=-1)
+    transposed = np.swapaxes(factor, -1, -2)
+    normal = transposed @ (information @ factor)
+    index = np.arange(factor.shape[-1])
+    normal[..., index, index] += 1.0
+    weighted = _product(transposed, _product(information, kz))
+    amplitude = np.linalg.solve(normal, weighted[..., None])[..., 0]
+    splits = np.cumsum([model.nuisance[name].shape[-1] for name in sources])[:-1]
+    shared = dict(zip(sources, np.split(amplitude, splits, axis=-1), strict=True))
+    return kz - _product(factor, amplitude), shared
 
 
 def _noise_variances(model: PhaseModel, residual: Array, radar: Radar) -> dict[str, Array]:

@@ -88,9 +88,8 @@ def phase_model(
         for name, factor in factors.items()
     }
 
-    scale = {"phase": Scale.PIXEL, "range": errors.range.scale} | {
-        name: getattr(errors, name).scale for name in nuisance
-    }
+    scale = {"phase": Scale.PIXEL} | errors.common_scales
+    scale |= {name: getattr(errors, name).scale for name in nuisance}
     if errors.weighting is Weighting.JOINT:
         information = _joint_information(offset, radar, errors.baseline_decorrelation)
         return PhaseModel(kz, information, nuisance, {}, scale)
