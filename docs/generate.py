@@ -18,6 +18,7 @@ from tables import (  # noqa: E402 — found beside this file
     error_model,
     li2009,
     orbits,
+    phase_statistics,
     spotlight,
     steering,
     steering_papers,
@@ -25,7 +26,17 @@ from tables import (  # noqa: E402 — found beside this file
     video,
 )
 
-_MODULES = (error_model, li2009, validation, steering, steering_papers, orbits, spotlight, video)
+_MODULES = (
+    error_model,
+    phase_statistics,
+    li2009,
+    validation,
+    steering,
+    steering_papers,
+    orbits,
+    spotlight,
+    video,
+)
 TABLES = {name: table for module in _MODULES for name, table in module.TABLES.items()}
 
 _BLOCK = re.compile(r"(<!-- generated: (\w+) -->\n).*?(<!-- end -->)", re.DOTALL)

@@ -30,6 +30,7 @@ GENERATED = [
     "liang2018.md",
     "meng2003.md",
     "orbits.md",
+    "phase_statistics.md",
     "steering.md",
     "validation.md",
     "zhao2019.md",
