@@ -29,6 +29,7 @@ from .geometry import line_of_sight
 from .height import HeightError, HeightStatus, height_error, height_error_of
 from .phase_information import filtered_information, fisher_information, pair_phase_variance
 from .phase_model import PhaseModel, pair_coherence, phase_model
+from .point_to_point import point_to_point_error, point_to_point_factor
 from .radar import Radar, monostatic, one_transmitter, ping_pong
 from .scene import LookSide, Scene
 from .unwrapping import (
@@ -75,6 +76,8 @@ __all__ = [
     "pair_phase_variance",
     "phase_model",
     "ping_pong",
+    "point_to_point_error",
+    "point_to_point_factor",
     "scene_critical_baseline",
     "snr_coherence",
     "two_baseline_probability",
