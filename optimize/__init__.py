@@ -8,6 +8,7 @@ from .genetic import GeneticSettings
 from .problem import Evaluation, Problem
 from .result import EvaluateResult, OptimizeResult
 from .search import GenerationRecord, SearchResult, SearchSettings, search
+from .structured import structured_designs
 
 __all__ = [
     "Assessment",
@@ -32,4 +33,5 @@ __all__ = [
     "assess",
     "findings",
     "search",
+    "structured_designs",
 ]
