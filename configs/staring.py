@@ -9,10 +9,12 @@ from typing import NamedTuple
 from formation import Orbit
 from insar import LookSide
 from insar.observe import Relation
+from insar.observe.agile.agility import Agility
+from insar.observe.agile.plans import PassPlan
 from insar.observe.agile.spotlight import spotlight
 from insar.observe.agile.spotlight_claims import SpotlightClaim, SpotlightQuantity
-from insar.observe.agile.spotlight_plan import plan_spotlight
-from insar.observe.agile.spotlight_results import Agility, SpotlightRequest
+from insar.observe.agile.spotlight_plan import plan_pass, plan_spotlight
+from insar.observe.agile.spotlight_results import SpotlightRequest
 from insar.observe.agile.staring import StaringScene, staring_scene
 from insar.observe.agile.video import video
 from insar.observe.agile.video_results import VideoRequest, YawLaw
@@ -35,6 +37,9 @@ _SIDES = {"either": None, "left": LookSide.LEFT, "right": LookSide.RIGHT}
 
 _ANY_RESOLUTION = 1.0
 """Of what only needs the moment of zero Doppler, which does not depend on it [m]."""
+
+_BLAMED = {"number = ": "pass_number", "resolution = ": "resolution_m"}
+"""Keys to blame, by how the message begins."""
 
 _FEW = 3
 """Samples that show whether a study can be computed at all."""
@@ -177,22 +182,30 @@ def build_staring_scene(
     """
     at: KeyPath = ("scene", "spotlight" if isinstance(block, SpotlightBlock) else "video")
     try:
-        if isinstance(block, SpotlightBlock):
-            request = _image(block, trajectory, wavelength)
-        else:
-            request = _aim(block, trajectory, wavelength, _ANY_RESOLUTION)
-        plan = plan_spotlight(request)
-        return staring_scene(
-            request,
-            plan,
-            duration=(
-                block.duration_s if isinstance(block, VideoSceneBlock) else plan.imaging_time
-            ),
-            segments=block.segments,
-            slope=math.radians(block.slope_deg),
-        )
+        return _staring(block, trajectory, wavelength)
     except ValueError as error:
         raise _unseen(at, error) from None
+
+
+def _staring(
+    block: SpotlightSceneBlock | VideoSceneBlock, trajectory: PlacedTrajectory, wavelength: float
+) -> StaringScene:
+    """The scene, for as long as the image or the film takes."""
+    if isinstance(block, SpotlightBlock):
+        request = _image(block, trajectory, wavelength)
+        image = plan_spotlight(request)
+        plan: PassPlan = image
+        duration = image.imaging_time
+    else:
+        request = _aim(block, trajectory, wavelength, _ANY_RESOLUTION)
+        plan, duration = plan_pass(request), block.duration_s
+    return staring_scene(
+        request,
+        plan,
+        duration=duration,
+        segments=block.segments,
+        slope=math.radians(block.slope_deg),
+    )
 
 
 def _aim(
@@ -265,6 +278,7 @@ def _claim(block: SpotlightClaimBlock) -> SpotlightClaim:
 def _unseen(at: KeyPath, error: ValueError) -> BuildError:
     """Error of a pass that is not there, at the key to blame."""
     name, _, text = str(error).partition(": ")
-    if name.startswith("number = "):
-        return refusal((*at, "pass_number"), ValueError(text))
+    for start, key in _BLAMED.items():
+        if name.startswith(start):
+            return refusal((*at, key), ValueError(text))
     return refusal(at, error)

@@ -7,17 +7,14 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from insar.observe.agile.spotlight_results import (
-    Agility,
-    AimError,
-    SpotlightPlan,
-    SpotlightResult,
-)
+from insar.observe.agile.agility import Agility
+from insar.observe.agile.plans import PassPlan, SpotlightPlan
+from insar.observe.agile.profiles import Profile
+from insar.observe.agile.spotlight_results import AimError, SpotlightResult
 
 from .agile_words import pointing_reason, side_name
 from .json_claims import claims_json
 from .json_numbers import Json, finite, finite_list
-from .reading_agile import Profile
 from .tables_steering import largest, rate_of
 
 Array = NDArray[np.float64]
@@ -29,16 +26,18 @@ def spotlight_json(result: SpotlightResult) -> Json:
     return {
         "spotlight": {
             "target": place_json(request.latitude, request.longitude, request.height),
-            "plan": plan_json(result.plan),
+            "plan": _imaging_json(result.plan),
             "samples": len(result.times),
             "duration_s": finite(np.ptp(result.times)),
             "maneuver": maneuver_json(result.profile, ("yaw", "pitch", "roll"), request.agility),
-            "solved_fraction": float(np.mean(result.profile.pointing == 0)),
-            "reason": pointing_reason(result.profile.pointing),
+            "solved_fraction": float(np.mean(result.profile.outcome == 0)),
+            "reason": pointing_reason(result.profile.outcome),
             "aim_error": _aim_error(result.aim_error),
             "iteration_steps": result.iteration.steps,
             "bandwidth_hz": finite(history.bandwidth),
             "resolution_m": finite(history.resolution),
+            "first_order_bandwidth_hz": finite(history.first_order_bandwidth),
+            "first_order_resolution_m": finite(history.first_order_resolution),
             "range_migration_m": finite(history.range_migration),
             "orbit_misfit_m": finite(result.orbit_misfit),
             "claims": claims_json(result.claims),
@@ -63,7 +62,17 @@ def place_json(latitude: float, longitude: float, height: float) -> Json:
     }
 
 
-def plan_json(plan: SpotlightPlan) -> Json:
+def _imaging_json(plan: SpotlightPlan) -> Json:
+    """Moment and geometry of zero Doppler, and times."""
+    return {
+        **plan_json(plan),
+        "aperture_time_s": finite(plan.aperture_time),
+        "first_order_time_s": finite(plan.first_order_time),
+        "imaging_time_s": finite(plan.imaging_time),
+    }
+
+
+def plan_json(plan: PassPlan) -> Json:
     """Moment and geometry of zero Doppler."""
     return {
         "zero_doppler_utc": plan.epoch.isoformat(),
@@ -77,8 +86,6 @@ def plan_json(plan: SpotlightPlan) -> Json:
         "azimuth_rad": finite(plan.azimuth),
         "doppler_rate_hz_s": finite(plan.doppler_rate),
         "ground_speed_m_s": finite(plan.ground_speed),
-        "aperture_time_s": finite(plan.aperture_time),
-        "imaging_time_s": finite(plan.imaging_time),
     }
 
 

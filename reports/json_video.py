@@ -24,8 +24,8 @@ def video_json(result: VideoResult) -> Json:
             "yaw_law": request.yaw_law.value,
             "reference_time_s": finite(request.reference_time),
             "maneuver": maneuver_json(result.profile, ("roll", "pitch", "yaw"), request.agility),
-            "solved_fraction": float(np.mean(result.profile.staring == 0)),
-            "reason": staring_reason(result.profile.staring),
+            "solved_fraction": float(np.mean(result.profile.outcome == 0)),
+            "reason": staring_reason(result.profile.outcome),
             "frames": {
                 "count": len(frames.times),
                 "complete": int(np.count_nonzero(frames.complete)),

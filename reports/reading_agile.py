@@ -7,23 +7,22 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from insar.observe.agile.agility import Agility
+from insar.observe.agile.plans import PassPlan
+from insar.observe.agile.profiles import Profile
 from insar.observe.agile.spotlight_results import (
-    Agility,
-    AttitudeProfile,
-    SpotlightPlan,
     SpotlightRequest,
     SpotlightResult,
 )
 from insar.observe.agile.staring import StaringScene
 from insar.observe.agile.video_footprint import horizontal_axes
-from insar.observe.agile.video_results import StaringProfile, VideoRequest, VideoResult
+from insar.observe.agile.video_results import VideoRequest, VideoResult
 from insar.observe.earth import from_geodetic, to_geodetic, vertical
 from insar.observe.vectors import dot, unit
 
 from .tables_steering import largest, rate_of
 
 Array = NDArray[np.float64]
-Profile = AttitudeProfile | StaringProfile
 
 AIM_ROUNDING = 1e-7
 """Aim error that is the rounding of the arithmetic: positions of 10⁷ m carry 10⁻⁹ m [m]."""
@@ -76,7 +75,7 @@ def passage_of_scene(staring: StaringScene) -> Passage:
 
 
 def _around(
-    plan: SpotlightPlan, request: SpotlightRequest | VideoRequest, start: float, stop: float
+    plan: PassPlan, request: SpotlightRequest | VideoRequest, start: float, stop: float
 ) -> Passage:
     first, last = (end - plan.time for end in request.trajectory.span)
     during = np.linspace(start, stop, _POINTS)
@@ -89,7 +88,7 @@ def _around(
 
 
 def _passage(
-    plan: SpotlightPlan,
+    plan: PassPlan,
     request: SpotlightRequest | VideoRequest,
     times: Array,
     start: float,
@@ -161,9 +160,7 @@ def exceeds(profile: Profile) -> bool:
 
 def is_limited(agility: Agility | None) -> bool:
     """Whether the study limits rate or acceleration at all."""
-    return agility is not None and not (
-        np.all(np.isinf(agility.max_rate)) and np.all(np.isinf(agility.max_acceleration))
-    )
+    return agility is not None and agility.limited
 
 
 def path_length(latitude: Array, longitude: Array, radius: float = 6371e3) -> float:

@@ -8,9 +8,9 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from insar.observe.agile.spotlight_results import AttitudeProfile, Pointing, SpotlightResult
+from insar.observe.agile.profiles import Profile
+from insar.observe.agile.spotlight_results import Pointing, SpotlightResult
 
-from .reading_agile import Profile
 from .tables_steering import claims_frame, largest, least, rate_of
 
 Array = NDArray[np.float64]
@@ -51,7 +51,7 @@ def spotlight_frame(result: SpotlightResult) -> pd.DataFrame:
             "doppler_hz": history.doppler,
             "latitude_deg": np.rad2deg(history.latitude),
             "longitude_deg": np.rad2deg(history.longitude),
-            "outcome": [Pointing(value).name.lower() for value in profile.pointing],
+            "outcome": [Pointing(value).name.lower() for value in profile.outcome],
         }
     )
 
@@ -90,7 +90,7 @@ def axes_frame(profile: Profile) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-def quaternions_frame(times: Array, profile: AttitudeProfile | Profile) -> pd.DataFrame:
+def quaternions_frame(times: Array, profile: Profile) -> pd.DataFrame:
     """Quaternions at the start, in the middle and at the end, a row for each frame."""
     middle = int(np.argmin(np.abs(times)))
     rows = []

@@ -45,7 +45,7 @@ def video_frame(result: VideoResult) -> pd.DataFrame:
             },
             "center_error_m": pointing.center,
             "rotation_error_deg": np.rad2deg(pointing.rotation),
-            "outcome": [Staring(value).name.lower() for value in profile.staring],
+            "outcome": [Staring(value).name.lower() for value in profile.outcome],
         }
     )
 

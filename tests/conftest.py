@@ -65,6 +65,7 @@ class TwoBody:
     epoch: datetime = datetime(2020, 1, 1, tzinfo=UTC)
     span: tuple[float, float] = (-np.inf, np.inf)
     perturbed: bool = False
+    source: str = "the motion of two bodies"
 
     def inertial(self, times: Any) -> States:
         """Axes: those of the Earth at time zero."""

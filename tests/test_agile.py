@@ -20,6 +20,7 @@ from insar.observe.agile.rotations import (
     continuous,
     euler_sequence,
     quaternion,
+    upright,
 )
 from insar.observe.agile.smooth_orbit import SHORTEST, smooth_orbit
 from insar.observe.agile.turning import (
@@ -113,6 +114,44 @@ def test_singularity_is_flagged_and_the_angles_still_give_the_attitude(sequence,
 
 
 # -- quaternions, axis and angle -----------------------------------------------------------------
+
+
+@pytest.mark.parametrize("sequence", EulerSequence)
+@given(yaw=outer, pitch=outer, roll=outer)
+def test_upright_angles_give_the_attitude_and_have_the_smaller_outer_ones(
+    sequence, yaw, pitch, roll
+):
+    attitude = attitude_of_sequence(yaw=yaw, pitch=pitch, roll=roll, sequence=sequence)
+    plain = euler_sequence(attitude, sequence)
+    found = upright(plain, sequence)
+    again = attitude_of_sequence(
+        yaw=found.yaw, pitch=found.pitch, roll=found.roll, sequence=sequence
+    )
+    np.testing.assert_allclose(again, attitude, atol=4 * ROUNDING)
+    outer_names = ("yaw", "pitch") if sequence is EulerSequence.THREE_ONE_TWO else ("roll", "yaw")
+    cosines = sum(np.cos(getattr(found, name)) for name in outer_names)
+    assert cosines >= -1e-12
+    # Angles that are already small stay as they are.
+    if max(abs(yaw), abs(pitch), abs(roll)) < 1.5:
+        assert [found.yaw, found.pitch, found.roll] == [plain.yaw, plain.pitch, plain.roll]
+
+
+def test_upright_angles_pass_a_middle_one_of_90_degrees_without_a_jump():
+    """A pure roll from 60° to 120° is a pure roll all the way; NaN stays NaN."""
+    roll = np.radians(np.arange(60.5, 120.0, 1.0))
+    attitude = attitude_of_sequence(
+        yaw=0.0, pitch=0.0, roll=roll, sequence=EulerSequence.THREE_ONE_TWO
+    )
+    found = upright(
+        euler_sequence(attitude, EulerSequence.THREE_ONE_TWO), EulerSequence.THREE_ONE_TWO
+    )
+    np.testing.assert_allclose(found.roll, roll, atol=1e-12)
+    np.testing.assert_allclose([found.yaw, found.pitch], 0.0, atol=1e-12)
+    lost = upright(
+        euler_sequence(np.full((3, 3), np.nan), EulerSequence.ONE_TWO_THREE),
+        EulerSequence.ONE_TWO_THREE,
+    )
+    assert np.isnan([lost.yaw, lost.pitch, lost.roll]).all()
 
 
 def test_quaternion_is_the_turn_of_the_axes_with_the_scalar_last():

@@ -299,8 +299,8 @@ WRONG = {
     ),
     "unknown key": (
         HAN,
-        "  weighting_factor: 1.09888",
-        "  weighting: 1.09888",
+        "  weighting_factor: 1.098781",
+        "  weighting: 1.098781",
         "weighting:",
         "spotlight.weighting is not a known key; did you mean 'weighting_factor'? the keys of "
         f"spotlight are {_SPOTLIGHT_KEYS}",

@@ -18,8 +18,9 @@ import pytest
 from formation import KeplerianOrbit, Trajectory, raan_from_longitude
 from insar import LookSide
 from insar.observe import Claim, Verdict
+from insar.observe.agile.agility import Agility
 from insar.observe.agile.spotlight import spotlight
-from insar.observe.agile.spotlight_results import Agility, SpotlightRequest, SpotlightResult
+from insar.observe.agile.spotlight_results import SpotlightRequest, SpotlightResult
 from insar.observe.agile.video import video
 from insar.observe.agile.video_results import VideoRequest, VideoResult, YawLaw
 from insar.observe.coverage.results import Coverage, CoverageResult

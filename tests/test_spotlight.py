@@ -14,13 +14,18 @@ import pytest
 from formation import Elements, KeplerianOrbit
 from formation.frames import gcrs_to_itrs
 from formation.timescales import moments
-from insar.observe.agile.rotations import attitude_of_quaternion, axis_angle
+from insar.observe.agile.agility import Agility
+from insar.observe.agile.rotations import (
+    EulerSequence,
+    attitude_of_quaternion,
+    attitude_of_sequence,
+    axis_angle,
+)
 from insar.observe.agile.smooth_orbit import smooth_orbit
 from insar.observe.agile.spotlight import spotlight, spotlight_scene
 from insar.observe.agile.spotlight_attitude import Antenna, attitude_profile
 from insar.observe.agile.spotlight_plan import aim_point, ground_speed, plan_spotlight
 from insar.observe.agile.spotlight_results import (
-    Agility,
     Pointing,
     SpotlightRequest,
     SpotlightResult,
@@ -114,7 +119,7 @@ def test_beam_stays_on_the_aim_point_on_any_orbit(seed, two_body):
     )
     result = spotlight(request, 101)
     assert abs(result.plan.time) < 1e-5
-    assert np.all(result.profile.pointing == Pointing.SOLVED)
+    assert np.all(result.profile.outcome == Pointing.SOLVED)
     assert result.aim_error.closed_form.max() < AIM
     assert result.aim_error.iterated.max() < AIM
     # Contraction by |p|/r: three or four steps to rounding.
@@ -293,12 +298,14 @@ def test_bandwidth_gives_the_resolution(sharp):
     assert sharp.times[-1] - sharp.times[0] == pytest.approx(plan.aperture_time)
     swept = history.doppler[0] - history.doppler[-1]
     assert history.bandwidth == pytest.approx(swept, rel=1e-9)
-    # The Doppler rate falls off away from its peak: (v T/2r)²/2 of the bandwidth.
-    assert history.resolution == pytest.approx(0.25, rel=2e-3)
-    assert history.resolution > 0.25
-    assert plan.aperture_time == pytest.approx(
+    assert history.resolution == pytest.approx(0.25, rel=1e-9)
+    assert history.bandwidth == pytest.approx(1.1 * plan.ground_speed / 0.25, rel=1e-9)
+    # Han's time takes the rate at zero Doppler, its peak: (v T/2r)²/2 of the bandwidth too short.
+    assert plan.first_order_time == pytest.approx(
         1.1 * plan.ground_speed / (0.25 * abs(plan.doppler_rate))
     )
+    assert history.first_order_resolution == pytest.approx(0.25, rel=2e-3)
+    assert history.first_order_resolution > 0.25
     assert history.range_migration == pytest.approx(np.ptp(history.slant_range), rel=0.1)
 
 
@@ -359,7 +366,7 @@ def test_scene_holds_the_aim_point_from_ahead_to_behind(sharp):
 def test_target_below_the_horizon_is_masked():
     """A profile longer than the target is in view."""
     result = spotlight(request_seen(low_orbit(), look=math.radians(40.0), duration=1200.0), 601)
-    hidden = result.profile.pointing == Pointing.BELOW_HORIZON
+    hidden = result.profile.outcome == Pointing.BELOW_HORIZON
     assert hidden[0]
     assert hidden[-1]
     assert not hidden[300]
@@ -427,7 +434,7 @@ def test_beam_that_would_have_to_turn_by_180_degrees_is_masked():
         orbit, times, target, Antenna(np.array([0.0, 0.0, -1.0]), np.zeros(3))
     )
     np.testing.assert_array_equal(
-        profile.pointing, [Pointing.SOLVED, Pointing.OPPOSITE, Pointing.SOLVED]
+        profile.outcome, [Pointing.SOLVED, Pointing.OPPOSITE, Pointing.SOLVED]
     )
     np.testing.assert_array_equal(np.isnan(profile.pitch), [False, True, False])
 
@@ -575,16 +582,125 @@ def test_han_2016_roll_needs_a_pass_without_drift():
     assert 2.0 * HAN["printed"]["roll_range_deg"] < swings[85.0]
 
 
-def test_a_resolution_that_is_missed_is_said():
-    """At L band the aperture is so long that its Doppler bends: 0.08 m instead of 0.05 m."""
-    request = dataclasses.replace(
-        request_seen(low_orbit(), look=math.radians(30.0)), wavelength=0.24, resolution=0.05
+# -- the time that a resolution takes ------------------------------------------------------------
+
+
+def l_band(resolution: float, **changes) -> SpotlightRequest:
+    """At L band an aperture is so long that its Doppler bends."""
+    changes = {"wavelength": 0.24, "resolution": resolution} | changes
+    return request_seen(low_orbit(), look=math.radians(30.0), **changes)
+
+
+@pytest.mark.parametrize("resolution", [0.07, 0.1, 1.0])
+@pytest.mark.parametrize("phase_center", [(0.0, 0.0, 0.0), (3.0, -2.0, 1.0)])
+def test_the_imaging_time_gives_the_resolution(resolution, phase_center):
+    request = l_band(resolution, phase_center=phase_center)
+    result = spotlight(request, 21)
+    plan = result.plan
+    assert result.history.resolution == pytest.approx(resolution, rel=1e-9)
+    assert plan.imaging_time == plan.aperture_time
+    # On a straight path the rate at zero Doppler alone gives a time too short by 1/√(1 − x²), x the
+    # bandwidth by its limit 4v/λ; the curve of the orbit adds a tenth of that, and more near x = 1.
+    speed = np.linalg.norm(request.trajectory.earth_fixed(plan.time).velocity)
+    share = result.history.bandwidth * request.wavelength / (4.0 * speed)
+    longer = plan.aperture_time / plan.first_order_time
+    assert share < 0.9
+    assert longer - 1.0 == pytest.approx(1.0 / math.sqrt(1.0 - share**2) - 1.0, rel=0.1 + 0.4 * share)
+
+
+def test_the_imaging_time_against_the_range_of_the_trajectory():
+    """Independent: differences of the slant range of the trajectory itself, at both ends."""
+    request = l_band(0.08)
+    plan = plan_spotlight(request)
+    doppler = []
+    for end in (-0.5, 0.5):
+        around = plan.time + end * plan.aperture_time + np.array([-0.05, 0.05])
+        position = request.trajectory.earth_fixed(around).position
+        range_rate = np.diff(np.linalg.norm(position - aim_point(request), axis=-1)) / 0.1
+        doppler.append(-2.0 / request.wavelength * range_rate[0])
+    # 1e-4 Hz: the third derivative of the range over 0.05 s; bandwidth 96 kHz.
+    assert doppler[0] - doppler[1] == pytest.approx(1.1 * plan.ground_speed / 0.08, rel=1e-7)
+
+
+def test_the_first_order_time_is_that_of_fine_wavelengths():
+    """It is right to (λB/4v)²/2 and so to λ²."""
+    errors = []
+    for wavelength in (0.0625, 0.125):
+        plan = plan_spotlight(l_band(0.25, wavelength=wavelength))
+        errors.append(plan.aperture_time / plan.first_order_time - 1.0)
+    assert errors[1] / errors[0] == pytest.approx(4.0, rel=0.03)
+
+
+def test_a_resolution_out_of_reach_is_refused_with_one_that_is_not():
+    with pytest.raises(ValueError, match="out of reach") as refused:
+        plan_spotlight(l_band(0.05))
+    said = str(refused.value)
+    assert said.startswith("resolution = 0.05 m: ")
+    assert "while the aim point sees the satellite, 348." in said
+    offered = float(said.split("ask for ")[1].split(" m")[0])
+    plan = plan_spotlight(l_band(offered))
+    assert plan.aperture_time < 2.0 * 348.5
+    # Half a step finer is out of reach: the offer is no more than rounded.
+    with pytest.raises(ValueError, match="out of reach"):
+        plan_spotlight(l_band(offered * 0.998))
+
+
+def test_an_orbit_known_for_too_short_bounds_the_resolution(two_body):
+    elements = low_orbit().elements
+    long = two_body(elements)
+    short = two_body(elements, span=(-40.0, 40.0))
+    wanted = request_seen(
+        short, look=math.radians(30.0), wavelength=0.24, resolution=0.1, start=-39.0, stop=39.0
     )
-    result = spotlight(request)
-    assert result.history.resolution > 0.06
-    assert any("m asked for" in text for text in result.warnings)
-    fine = spotlight(dataclasses.replace(request, wavelength=0.031, resolution=1.0))
-    assert not any("m asked for" in text for text in fine.warnings)
+    assert plan_spotlight(dataclasses.replace(wanted, trajectory=long)).aperture_time > 80.0
+    with pytest.raises(ValueError, match=r"while the orbit is known, 40\.0 s before and after"):
+        plan_spotlight(wanted)
+
+
+# -- turned over ---------------------------------------------------------------------------------
+
+
+def test_a_body_that_rolls_over_has_the_angles_of_who_steers_it():
+    """Beam 80° to the right of the body, target 30° to the left: a roll of 110°, and little else.
+
+    The angles of the sequence with a roll within ±90° are yaw 174°, roll 70°, pitch -173°. The
+    plane of zero Doppler is 4° from the orbit frame's, and the long turn doubles that.
+    """
+    request = request_seen(
+        low_orbit(), look=math.radians(30.0), side=LookSide.LEFT, off_axis=math.radians(-80.0)
+    )
+    result = spotlight(request, 101)
+    profile = result.profile
+    middle = [math.degrees(getattr(profile, name)[50]) for name in ("yaw", "pitch", "roll")]
+    assert abs(middle[2]) == pytest.approx(110.0, abs=0.5)
+    assert max(abs(middle[0]), abs(middle[1])) < 8.0
+    for name in ("yaw", "pitch", "roll"):
+        assert np.abs(np.diff(getattr(profile, name))).max() < 0.05
+    angles = {name: getattr(profile, name) for name in ("yaw", "pitch", "roll")}
+    np.testing.assert_allclose(
+        attitude_of_sequence(sequence=EulerSequence.THREE_ONE_TWO, **angles),
+        profile.attitude,
+        atol=1e-14,
+    )
+    assert np.all(profile.upside_down)
+    assert any("upside down" in text for text in result.warnings)
+    assert not np.any(spotlight(dataclasses.replace(request, off_axis=0.1), 11).profile.upside_down)
+
+
+def test_old_elements_are_warned_of():
+    """By the same words as in a formation study; a fresh orbit is not."""
+    orbit = low_orbit()
+    aged = dataclasses.replace(
+        request_seen(orbit, look=math.radians(30.0)),
+        start=400 * 86_400.0,
+        stop=411 * 86_400.0,
+        near_incidence=math.radians(20.0),
+        far_incidence=math.radians(55.0),
+    )
+    (text,) = spotlight(aged, 11).warnings
+    assert "days after the epoch of the" in text
+    assert "drag is left out" in text
+    assert spotlight(request_seen(orbit, look=math.radians(30.0)), 11).warnings == ()
 
 
 @pytest.mark.parametrize("factor", [0.7, 0.95])
@@ -594,5 +710,5 @@ def test_a_sliding_beam_at_a_large_incidence_sees_its_place(factor):
         request_seen(low_orbit(), look=math.radians(53.0)), sliding_factor=factor
     )
     profile = spotlight(request).profile
-    assert np.all(profile.pointing == Pointing.SOLVED)
+    assert np.all(profile.outcome == Pointing.SOLVED)
     assert np.all(np.isfinite(profile.rate_inertial))

@@ -19,9 +19,9 @@ from scipy.optimize import brentq
 from formation import Elements, KeplerianOrbit, States
 from formation.constants import EARTH_EQUATORIAL_RADIUS
 from insar import LookSide
+from insar.observe.agile.agility import Agility
 from insar.observe.agile.rotations import EulerSequence, euler_sequence
 from insar.observe.agile.smooth_orbit import smooth_orbit
-from insar.observe.agile.spotlight_results import Agility
 from insar.observe.agile.video import video, video_scene
 from insar.observe.agile.video_attitude import hold, stare, staring_profile
 from insar.observe.agile.video_footprint import footprint_map, footprints, horizontal_axes
@@ -318,7 +318,7 @@ def test_unreachable_resolution_is_a_mask_with_a_remedy():
 def test_beam_stays_on_the_aim_point(law, case):
     result = video(films(yaw_law=law)[case], 101, 3)
     request, states = result.request, earth_fixed(result)
-    assert np.all(result.profile.staring == Staring.SOLVED)
+    assert np.all(result.profile.outcome == Staring.SOLVED)
     hit = intersect(states.position, body_axes(result)[:, 2], height=request.height)
     distance = np.linalg.norm(hit - target_of(request), axis=-1)
     # The trajectory's own rounding, of the Earth's angle, goes into the axes and the position.
@@ -481,7 +481,7 @@ def test_pitch_of_90_degrees_is_flagged_and_has_rates():
     differences = angular_rates(times, now.attitude, orbit_axes=orbit_axes(orbit.states(times)))
     assert_allclose(now.rate_orbit, differences.orbit, atol=RATE)
     assert euler_sequence(now.attitude[4], EulerSequence.ONE_TWO_THREE).singular
-    assert np.all(staring_profile(orbit, times, held).staring == Staring.BELOW_HORIZON)
+    assert np.all(staring_profile(orbit, times, held).outcome == Staring.BELOW_HORIZON)
 
 
 def test_film_of_the_nadir():
@@ -503,7 +503,7 @@ def test_film_of_the_nadir():
         video(request)
     for law in YawLaw:
         result = video(dataclasses.replace(request, near_incidence=0.0, yaw_law=law), 101, 3)
-        assert np.all(result.profile.staring == Staring.SOLVED)
+        assert np.all(result.profile.outcome == Staring.SOLVED)
         assert np.all(np.isfinite(result.profile.rate_inertial))
         assert np.all(np.isfinite(result.distortion.shear))
 
@@ -690,7 +690,7 @@ def test_point_that_is_never_seen_says_why():
 
 def test_film_longer_than_the_view_is_masked():
     result = video(sasebo(duration=900.0, frame_rate=0.2), 181, 31)
-    hidden = result.profile.staring == Staring.BELOW_HORIZON
+    hidden = result.profile.outcome == Staring.BELOW_HORIZON
     assert 0 < np.count_nonzero(hidden) < 100
     visible = look_at(earth_fixed(result), target_of(result.request)).visible
     assert np.array_equal(hidden, ~visible)
@@ -707,14 +707,14 @@ def test_round_beam_has_no_major_axis_to_hold():
     result = video(
         sasebo(yaw_law=YawLaw.MAJOR_AXIS, azimuth_beamwidth=wide, elevation_beamwidth=wide), 21, 3
     )
-    assert np.all(result.profile.staring == Staring.AXIS_LOST)
+    assert np.all(result.profile.outcome == Staring.AXIS_LOST)
     assert any("hold the azimuth or the range trace" in text for text in result.warnings)
     nearly = video(
         sasebo(yaw_law=YawLaw.MAJOR_AXIS, azimuth_beamwidth=wide, elevation_beamwidth=1.3 * wide),
         201,
         3,
     )
-    lost = nearly.profile.staring == Staring.AXIS_LOST
+    lost = nearly.profile.outcome == Staring.AXIS_LOST
     assert 0 < np.count_nonzero(lost) < 201
     assert np.nanmax(np.abs(nearly.distortion.major_axis)) < TRACE
 
@@ -737,7 +737,7 @@ def test_major_axis_is_lost_where_the_slant_makes_it_the_minor_one():
     )
     result = video(request, 201, 3)
     incidence = look_at(earth_fixed(result), target_of(request)).incidence
-    solved = result.profile.staring == Staring.SOLVED
+    solved = result.profile.outcome == Staring.SOLVED
     assert np.array_equal(solved, 1.0 / np.cos(incidence) < 1.3)
     assert 20 < np.count_nonzero(solved) < 180
     assert np.nanmax(np.abs(result.distortion.major_axis)) < TRACE
@@ -750,7 +750,7 @@ def test_direction_along_the_line_of_sight_leaves_the_turn_open():
     line = unit(target - orbit.states(0.0).position)
     held = Held(YawLaw.AZIMUTH_TRACE, target, vertical(target), line, Beam(0.01, 0.01))
     profile = staring_profile(orbit, np.array([0.0, 5.0]), held)
-    assert list(profile.staring) == [Staring.UNDEFINED, Staring.SOLVED]
+    assert list(profile.outcome) == [Staring.UNDEFINED, Staring.SOLVED]
     assert np.all(np.isnan(profile.rate_orbit[0]))
 
 

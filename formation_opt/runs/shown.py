@@ -7,6 +7,9 @@ from datetime import datetime, timedelta
 import numpy as np
 from numpy.typing import NDArray
 
+from insar.observe.agile.agility import Agility
+from insar.observe.agile.profiles import Profile
+
 ROUNDING = 1e-6
 """Degrees and hertz below this are the rounding of the arithmetic."""
 
@@ -29,20 +32,23 @@ def hertz(value: float) -> str:
     return "0 Hz" if value < ROUNDING else f"{value:.3g} Hz" if value < 100.0 else f"{value:.0f} Hz"
 
 
-def agility(exceeded: NDArray[np.bool_], rates: NDArray[np.float64], *, limited: bool) -> str:
+def agility(profile: Profile, limits: Agility | None, why: str | None) -> str:
     """Whether a satellite can turn as it must; not known where the attitude is not.
 
     Parameters
     ----------
-    exceeded : (S,) — whether a limit is exceeded.
-    rates : (S, 3) — of the body [rad/s].
-    limited : whether there is any limit.
+    profile : how it turns.
+    limits : of the satellite; None for none.
+    why : it cannot be pointed at some samples; None where it can at all.
     """
-    if not limited:
-        return "no limits given"
-    if np.any(exceeded):
-        return "exceeded"
-    return "kept" if np.all(np.isfinite(rates)) else "not known"
+    if not np.any(profile.solved):
+        return f"not known: {why}"
+    part = "" if why is None else f", where the attitude is known; {why}"
+    if limits is None or not limits.limited:
+        return f"no limits given{part}"
+    if np.any(profile.rate_exceeded | profile.acceleration_exceeded):
+        return f"exceeded{part}"
+    return f"kept{part}"
 
 
 def moment(time: datetime) -> str:

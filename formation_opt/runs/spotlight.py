@@ -10,6 +10,7 @@ from configs.staring import SpotlightSetup
 from insar.observe.agile.spotlight import spotlight
 from insar.observe.agile.spotlight_claims import judge_spotlight
 from insar.observe.agile.spotlight_results import SpotlightResult
+from reports.agile_words import pointing_reason
 
 from .outcome import Options, Outcome, Summary
 from .shown import agility, largest, largest_degrees, moment
@@ -36,8 +37,7 @@ def run(study: SpotlightStudy, setup: SpotlightSetup, options: Options) -> Outco
 def _summary(result: SpotlightResult) -> Summary:
     """When, for how long, how sharp, and what it takes."""
     plan, profile, history = result.plan, result.profile, result.history
-    exceeded = profile.rate_exceeded | profile.acceleration_exceeded
-    limited = result.request.agility is not None
+    why = pointing_reason(profile.outcome)
     side = plan.side.name.lower()
     heading = "northward" if plan.ascending else "southward"
     rows = (
@@ -45,13 +45,14 @@ def _summary(result: SpotlightResult) -> Summary:
         ("pass", f"{plan.number} of {plan.passes}, flying {heading}, looking {side}"),
         ("incidence", f"{math.degrees(plan.incidence):.2f}°"),
         ("imaging time", f"{plan.imaging_time:.3f} s"),
+        ("aperture time, first order", f"{plan.first_order_time:.3f} s"),
         ("resolution in azimuth", f"{history.resolution:.3f} m of {history.bandwidth:.0f} Hz"),
         ("largest yaw", f"{largest_degrees(profile.yaw)}°"),
         ("largest pitch", f"{largest_degrees(profile.pitch)}°"),
         ("largest roll", f"{largest_degrees(profile.roll)}°"),
         ("largest rate, inertial", f"{largest_degrees(profile.rate_inertial)}°/s"),
         ("largest acceleration, inertial", f"{largest_degrees(profile.acceleration_inertial)}°/s²"),
-        ("agility", agility(exceeded, profile.rate_inertial, limited=limited)),
+        ("agility", agility(profile, result.request.agility, why)),
         ("largest aim error", f"{largest(result.aim_error.closed_form):.1e} m"),
     )
     return Summary(

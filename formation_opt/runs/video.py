@@ -11,6 +11,7 @@ from configs import VideoStudy
 from configs.staring import VideoSetup
 from insar.observe.agile.video import video
 from insar.observe.agile.video_results import VideoResult
+from reports.agile_words import staring_reason
 
 from .outcome import Options, Outcome, Summary
 from .shown import agility, largest_degrees, moment
@@ -32,8 +33,7 @@ def run(study: VideoStudy, setup: VideoSetup, options: Options) -> Outcome:
 def _summary(result: VideoResult) -> Summary:
     """When, how many frames, what it takes, and what the yaw law leaves."""
     plan, profile, frames, left = result.plan, result.profile, result.frames, result.distortion
-    exceeded = profile.rate_exceeded | profile.acceleration_exceeded
-    limited = result.request.agility is not None
+    why = staring_reason(profile.outcome)
     rows = (
         ("zero Doppler", moment(plan.epoch)),
         ("incidence", f"{math.degrees(plan.incidence):.2f}°"),
@@ -43,7 +43,7 @@ def _summary(result: VideoResult) -> Summary:
         ("largest pitch", f"{largest_degrees(profile.pitch)}°"),
         ("largest yaw", f"{largest_degrees(profile.yaw)}°"),
         ("largest rate, inertial", f"{largest_degrees(profile.rate_inertial)}°/s"),
-        ("agility", agility(exceeded, profile.rate_inertial, limited=limited)),
+        ("agility", agility(profile, result.request.agility, why)),
         ("azimuth trace turns by", f"{largest_degrees(left.azimuth_trace)}°"),
         ("range trace turns by", f"{largest_degrees(left.range_trace)}°"),
         ("shear of the footprint", f"{largest_degrees(left.shear)}°"),

@@ -11,9 +11,9 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
-from insar.observe.agile.spotlight_results import Agility
+from insar.observe.agile.agility import Agility
+from insar.observe.agile.profiles import Profile
 
-from ..reading_agile import Profile
 from ..tables_steering import rate_of
 from .steering import thinned
 from .style import BROKEN, INK, MUTED, color, draw, name_series

@@ -50,7 +50,8 @@ def pass_section(result: SpotlightResult) -> Section:
         ("incidence", f"{fixed(math.degrees(plan.incidence), 4)}°"),
         ("Doppler rate", f"{fixed(plan.doppler_rate, 2)} Hz/s"),
         ("speed of the zero-Doppler line", f"{fixed(plan.ground_speed, 2)} m/s"),
-        ("aperture time", f"{fixed(plan.aperture_time, 4)} s"),
+        ("aperture time, solved for the resolution", f"{fixed(plan.aperture_time, 4)} s"),
+        ("the same to first order", f"{fixed(plan.first_order_time, 4)} s"),
         ("imaging time", f"{fixed(plan.imaging_time, 4)} s"),
         ("Doppler bandwidth", f"{fixed(history.bandwidth, 2)} Hz"),
         ("resolution in azimuth", f"{significant(history.resolution, 5)} m"),
@@ -138,32 +139,17 @@ def echo_section(result: SpotlightResult) -> Section:
     """Range and Doppler history."""
     plan = result.plan
     longer = plan.aperture_time < 0.995 * float(np.ptp(result.times))
-    frame = pd.DataFrame(
-        [
-            {
-                "what": "Asked for",
-                "time": math.nan,
-                "bandwidth": result.request.weighting
-                * plan.ground_speed
-                / result.request.resolution,
-                "resolution": result.request.resolution,
-            },
-            {
-                "what": "By the rate at zero Doppler",
-                "time": plan.aperture_time,
-                "bandwidth": abs(plan.doppler_rate) * plan.aperture_time,
-                "resolution": result.request.weighting
-                * plan.ground_speed
-                / (abs(plan.doppler_rate) * plan.aperture_time),
-            },
-            {
-                "what": "By the Doppler history",
-                "time": plan.aperture_time,
-                "bandwidth": result.history.bandwidth,
-                "resolution": result.history.resolution,
-            },
-        ]
+    history = result.history
+    rows = (
+        ("Solved", plan.aperture_time, history.bandwidth, history.resolution),
+        (
+            "To first order",
+            plan.first_order_time,
+            history.first_order_bandwidth,
+            history.first_order_resolution,
+        ),
     )
+    frame = pd.DataFrame(rows, columns=["what", "time", "bandwidth", "resolution"])
     return Section(
         "echo",
         "Range and Doppler",
@@ -180,13 +166,15 @@ def echo_section(result: SpotlightResult) -> Section:
             Table(
                 frame,
                 (
-                    Column("what", "Figure"),
-                    Column("time", "Aperture time", "s", _to_digits),
+                    Column("what", "Aperture time"),
+                    Column("time", "Time", "s", _to_digits),
                     Column("bandwidth", "Bandwidth", "Hz", _to_hertz),
                     Column("resolution", "Resolution", "m", _to_digits),
                 ),
-                "Bandwidth and resolution in azimuth on the ground. The Doppler history bends: its "
-                "bandwidth is a little less than the rate at zero Doppler times the time.",
+                "Bandwidth of the Doppler history, and resolution in azimuth on the ground: in the "
+                "time that is solved for the resolution, and in that of the source, which takes "
+                "the rate at zero Doppler for the whole aperture. The history bends, so that the "
+                "latter falls short.",
             ),
         ),
     )

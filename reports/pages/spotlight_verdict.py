@@ -43,7 +43,7 @@ def spotlight_verdict(result: SpotlightResult) -> tuple[Block, ...]:
     """Verdict on a spotlight imaging."""
     status, title = _title(result)
     paragraphs: list[Text] = [_when(result), _maneuver(result), _image(result)]
-    reason = pointing_reason(result.profile.pointing)
+    reason = pointing_reason(result.profile.outcome)
     if reason is not None:
         paragraphs.append((Strong("Not pointed for part of the time: "), f"{reason}."))
     paragraphs += claims_text(result.claims, "inputs of this study")
@@ -55,7 +55,7 @@ def _title(result: SpotlightResult) -> tuple[Status, str]:
     if exceeds(profile):
         share = percent(exceeded_share(profile))
         return Status.BAD, f"The satellite is not agile enough for {share} of the time"
-    if pointing_reason(profile.pointing) is not None:
+    if pointing_reason(profile.outcome) is not None:
         return Status.WARNING, "The beam cannot be pointed all the time"
     kept = "the beam stays on the aim point"
     if result.request.sliding_factor:
@@ -123,7 +123,9 @@ def _image(result: SpotlightResult) -> Text:
         f"The aperture time of {fixed(plan.aperture_time, 3)} s has a Doppler bandwidth of "
         f"{fixed(history.bandwidth, 0)} Hz, which resolves ",
         Strong(meters(history.resolution)),
-        f" in azimuth on the ground ({plain(result.request.resolution)} m asked for). {aim}",
+        " in azimuth on the ground, as asked for; the formula of first order would take "
+        f"{fixed(plan.first_order_time, 3)} s and resolve "
+        f"{meters(history.first_order_resolution)}. {aim}",
     )
 
 
@@ -143,7 +145,8 @@ def _metrics(result: SpotlightResult) -> Metrics:
                 quantity(fixed(plan.imaging_time, 3), "s"),
                 f"of which {fixed(extra, 2)} s slide over the scene"
                 if extra > 0.0
-                else "as the resolution needs",
+                else f"for {plain(result.request.resolution)} m; to first order "
+                f"{fixed(plan.first_order_time, 3)} s",
             ),
             Metric(
                 "Azimuth resolution",

@@ -8,12 +8,13 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from insar.observe.agile.spotlight_results import Agility
+from insar.observe.agile.agility import Agility
+from insar.observe.agile.profiles import Profile
 
 from ..document import Block, Column, Figure, Metric, Section, Status, Table
 from ..figures.pass_map import pass_map
 from ..figures.turning import Angle, attitude_figure, rates_figure
-from ..reading_agile import Demand, Passage, Profile, demands, exceeds
+from ..reading_agile import Demand, Passage, demands, exceeds
 from ..tables_spotlight import axes_frame, quaternions_frame, turns_frame
 from ..wording import MISSING, fixed, or_zero, percent, plain, significant, to_decimals
 
@@ -156,20 +157,23 @@ def limit_text(limit: float | tuple[float, float, float]) -> str:
 def demand_metrics(profile: Profile, agility: Agility | None) -> tuple[Metric, Metric]:
     """Key figures of rate and acceleration."""
     rate, acceleration = demands(profile, agility)
+    known = bool(np.all(profile.solved))
     return (
-        _metric("Largest rate", rate, "°/s"),
-        _metric("Largest acceleration", acceleration, "°/s²"),
+        _metric("Largest rate", rate, "°/s", known=known),
+        _metric("Largest acceleration", acceleration, "°/s²", known=known),
     )
 
 
-def _metric(label: str, found: Demand, unit: str) -> Metric:
-    value = f"{significant(math.degrees(found.largest), 2 if unit.endswith('²') else 3)}{unit}"
+def _metric(label: str, found: Demand, unit: str, *, known: bool) -> Metric:
+    """One of them; what is not known at some samples may be larger there, and is not good."""
     if not math.isfinite(found.largest):
-        value = MISSING
+        return Metric(label, MISSING, "not known: the beam is never pointed", Status.WARNING)
+    value = f"{significant(math.degrees(found.largest), 2 if unit.endswith('²') else 3)}{unit}"
+    part = "" if known else ", where known"
     if not math.isfinite(found.share):
-        return Metric(label, value, "inertial; no limit given")
-    status = Status.BAD if found.share > 1.0 else Status.GOOD
-    return Metric(label, value, f"inertial; {_used(found.share)} of the limit", status)
+        return Metric(label, value, f"inertial{part}; no limit given")
+    status = Status.BAD if found.share > 1.0 else Status.GOOD if known else Status.WARNING
+    return Metric(label, value, f"inertial{part}; {_used(found.share)} of the limit", status)
 
 
 def _used(share: float) -> str:
@@ -182,8 +186,15 @@ def _used(share: float) -> str:
 def agility_text(profile: Profile, agility: Agility | None) -> str:
     """Whether the satellite is agile enough, in a sentence."""
     rate, acceleration = demands(profile, agility)
+    if not math.isfinite(rate.largest):
+        return (
+            "Whether the satellite is agile enough is not known: the beam cannot be pointed at any "
+            "sample."
+        )
+    known = "" if np.all(profile.solved) else "Where the beam can be pointed, "
     turn = (
-        f"The body turns at up to {significant(math.degrees(rate.largest))}°/s and accelerates "
+        f"{known}{'t' if known else 'T'}he body turns at up to "
+        f"{significant(math.degrees(rate.largest))}°/s and accelerates "
         f"by up to {significant(math.degrees(acceleration.largest))}°/s² against inertial space"
     )
     shares = [

@@ -36,7 +36,7 @@ def video_verdict(result: VideoResult) -> tuple[Block, ...]:
     status, title = _title(result)
     paragraphs: list[Text] = [_when(result), _frames(result), _turns(result)]
     paragraphs.append(agility_text(result.profile, result.request.agility))
-    reason = staring_reason(result.profile.staring)
+    reason = staring_reason(result.profile.outcome)
     if reason is not None:
         paragraphs.append((Strong("Not pointed for part of the film: "), f"{reason}."))
     return Callout(status, title, tuple(paragraphs)), _metrics(result)
@@ -52,7 +52,7 @@ def _title(result: VideoResult) -> tuple[Status, str]:
     if exceeds(result.profile):
         share = percent(exceeded_share(result.profile))
         return Status.BAD, f"The satellite is not agile enough for {share} of the film"
-    if staring_reason(result.profile.staring) is not None:
+    if staring_reason(result.profile.outcome) is not None:
         return Status.WARNING, "The beam cannot be held for all of the film"
     if shared_too_much(result) and result.request.max_overlap:
         return Status.WARNING, "Frames have more data in common than is allowed"

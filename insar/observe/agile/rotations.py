@@ -23,6 +23,8 @@ Mask = NDArray[np.bool_]
 
 SINGULAR: Final = 1e-6
 """Of the middle angle from ±90°, below which the two others are no longer told apart [rad]."""
+_NAMES: Final = {"X": "roll", "Y": "pitch", "Z": "yaw"}
+"""Of the turns about the body's axes."""
 _NO_ROTATION: Final = 1e-6
 """Largest entry of C Cᵀ − 1 that is taken for rounding."""
 
@@ -83,6 +85,38 @@ def euler_sequence(attitude: ArrayLike, sequence: EulerSequence) -> SequenceAngl
     named = dict(zip(sequence.axes, np.moveaxis(angles, -1, 0), strict=True))
     singular = np.abs(np.abs(angles[..., 1]) - np.pi / 2) < SINGULAR
     return SequenceAngles(named["Z"], named["Y"], named["X"], singular)
+
+
+def upright(angles: SequenceAngles, sequence: EulerSequence) -> SequenceAngles:
+    """The same attitudes by the Euler angles that a person would give.
+
+    Two triples give the same attitude: (α, β, γ) and (α ± π, π − β, γ ± π). A body that rolls by
+    115° is (0°, 115°, 0°) to whoever steers it, and not (180°, 65°, 180°).
+
+    Parameters
+    ----------
+    angles : of `euler_sequence`.
+    sequence : theirs.
+
+    Returns
+    -------
+    SequenceAngles — of the two triples, the one whose outer angles are nearer to zero, by the sum
+    of their cosines; the middle one within ±π. Angles whose outer ones sum up to less than π in
+    magnitude stay as they are.
+    """
+    first, middle, last = (getattr(angles, _NAMES[axis]) for axis in sequence.axes)
+    turned = np.cos(first) + np.cos(last) < 0.0  # False for NaN
+    found = {
+        sequence.axes[0]: np.where(turned, _opposite(first), first),
+        sequence.axes[1]: np.where(turned, np.copysign(np.pi, middle) - middle, middle),
+        sequence.axes[2]: np.where(turned, _opposite(last), last),
+    }
+    return SequenceAngles(found["Z"], found["Y"], found["X"], angles.singular)
+
+
+def _opposite(angle: Array) -> Array:
+    """Angle half a turn on, within ±π."""
+    return angle - np.copysign(np.pi, angle)
 
 
 def attitude_of_sequence(

@@ -11,15 +11,11 @@ from numpy.typing import NDArray
 from ..frames import orbit_axes
 from ..look import look_at
 from ..vectors import dot, rotate
-from .rotations import EulerSequence, continuous, euler_sequence, quaternion
+from .agility import Agility
+from .profiles import Outcomes, Pointed, Profile, profile_of
+from .rotations import EulerSequence
 from .smooth_orbit import SmoothOrbit
-from .spotlight_results import (
-    Agility,
-    AttitudeProfile,
-    Iteration,
-    Pointing,
-    SpotlightRequest,
-)
+from .spotlight_results import Iteration, Pointing, SpotlightRequest
 from .turning import (
     inertial_rate,
     moving_shortest_turn,
@@ -34,9 +30,6 @@ Array = NDArray[np.float64]
 _ITERATIONS: Final = 20
 _CONVERGED: Final = 1e-15
 """Change of the attitude matrix at which Han's iteration stops: rounding."""
-_DIFFERENCE: Final = 1e-3
-"""Step of the rates' derivative, in units of range by speed, in which geometry changes: an error
-of 1e-6 of the acceleration."""
 
 
 class Antenna(NamedTuple):
@@ -57,14 +50,6 @@ class Antenna(NamedTuple):
         angle = request.off_axis
         beam = np.array([0.0, -math.sin(angle), math.cos(angle)])
         return cls(beam, np.asarray(request.phase_center, dtype=np.float64))
-
-
-class Pointed(NamedTuple):
-    """Attitude (S, 3, 3) and its rates against orbit frame and inertial space, (S, 3) [rad/s]."""
-
-    attitude: Array
-    rate_orbit: Array
-    rate_inertial: Array
 
 
 def point(orbit: SmoothOrbit, times: Array, target: Array, antenna: Antenna) -> Pointed:
@@ -103,7 +88,7 @@ def attitude_profile(
     *,
     place: Array | None = None,
     agility: Agility | None = None,
-) -> AttitudeProfile:
+) -> Profile:
     """Attitude, rates and accelerations while the beam stays on a point.
 
     Parameters
@@ -118,40 +103,17 @@ def attitude_profile(
 
     Returns
     -------
-    AttitudeProfile — the rates are closed forms; the accelerations are differences of them over
-    `_DIFFERENCE`, whatever the spacing of the times.
+    Profile — angles in the sequence 3-1-2; the rates are closed forms.
     """
-    states = orbit.states(times)
-    now = point(orbit, times, target, antenna)
-    visible = look_at(states, target if place is None else place).visible
-    pointing = _pointing(visible, now.attitude)
-    mask = np.where(pointing == Pointing.SOLVED, 0.0, np.nan)
-    step = _DIFFERENCE * float(
-        np.min(np.linalg.norm(target - states.position, axis=-1))
-        / np.max(np.linalg.norm(states.velocity, axis=-1))
-    )
-    before, after = (point(orbit, times + shift, target, antenna) for shift in (-step, step))
-    attitude = now.attitude + mask[:, None, None]
-    angles = euler_sequence(attitude, EulerSequence.THREE_ONE_TWO)
-    axes = orbit_axes(states)
-    rate_inertial = now.rate_inertial + mask[:, None]
-    acceleration = (after.rate_inertial - before.rate_inertial) / (2.0 * step) + mask[:, None]
-    limits = agility or Agility()
-    return AttitudeProfile(
-        attitude=attitude,
-        yaw=angles.yaw,
-        pitch=angles.pitch,
-        roll=angles.roll,
-        singular=angles.singular,
-        quaternion_orbit=continuous(quaternion(attitude)),
-        quaternion_inertial=continuous(quaternion(attitude @ axes @ orbit.from_celestial(times))),
-        rate_orbit=now.rate_orbit + mask[:, None],
-        rate_inertial=rate_inertial,
-        acceleration_orbit=(after.rate_orbit - before.rate_orbit) / (2.0 * step) + mask[:, None],
-        acceleration_inertial=acceleration,
-        pointing=pointing,
-        rate_exceeded=_exceeds(rate_inertial, limits.max_rate),
-        acceleration_exceeded=_exceeds(acceleration, limits.max_acceleration),
+    visible = look_at(orbit.states(times), target if place is None else place).visible
+    return profile_of(
+        orbit,
+        times,
+        lambda moments: point(orbit, moments, target, antenna),
+        target=target,
+        sequence=EulerSequence.THREE_ONE_TWO,
+        outcomes=lambda attitude: _pointing(visible, attitude),
+        agility=agility,
     )
 
 
@@ -191,17 +153,7 @@ def iterate(
     return Iteration(attitude, steps, turn_between(closed_form, attitude))
 
 
-def _pointing(visible: NDArray[np.bool_], attitude: Array) -> NDArray[np.int_]:
+def _pointing(visible: NDArray[np.bool_], attitude: Array) -> Outcomes:
     """Reasons, (S,)."""
     turned = np.where(np.isfinite(attitude[:, 0, 0]), Pointing.SOLVED, Pointing.OPPOSITE)
     return np.where(visible, turned, Pointing.BELOW_HORIZON)
-
-
-def _exceeds(vector: Array, limit: float | tuple[float, float, float]) -> NDArray[np.bool_]:
-    """Whether a magnitude, or any component, is above its limit, (S,); not where it is NaN."""
-    bound = np.asarray(limit, dtype=np.float64)
-    if bound.ndim == 0:
-        above: NDArray[np.bool_] = np.sqrt(dot(vector, vector)) > bound
-    else:
-        above = np.any(np.abs(vector) > bound, axis=-1)
-    return above

@@ -8,18 +8,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..earth import intersect, to_geodetic
-from ..frames import EARTH_ROTATION, orbit_axes
+from ..frames import orbit_axes
 from ..vectors import dot, rotate
+from .plans import SpotlightPlan
+from .profiles import Profile
 from .smooth_orbit import SmoothOrbit
 from .spotlight_attitude import Antenna, point
+from .spotlight_echo import Echo, echo
 from .spotlight_plan import aim_point
 from .spotlight_results import (
     AimError,
-    AttitudeProfile,
     EchoHistory,
     Iteration,
     Pointing,
-    SpotlightPlan,
     SpotlightRequest,
 )
 
@@ -34,7 +35,7 @@ def aim_error(
     orbit: SmoothOrbit,
     plan: SpotlightPlan,
     times: Array,
-    profile: AttitudeProfile,
+    profile: Profile,
     iteration: Iteration,
 ) -> AimError:
     """Aim errors of four attitudes, with the real beam and phase center."""
@@ -59,7 +60,7 @@ def aim_error(
         point(orbit, moments, plan.rotation_center, off_axis_only).attitude,
         point(orbit, moments, plan.rotation_center, neither).attitude,
     )
-    valid = np.where(profile.pointing == Pointing.SOLVED, 0.0, np.nan)
+    valid = np.where(profile.outcome == Pointing.SOLVED, 0.0, np.nan)
     gaps = (fall(attitude) - wanted for attitude in attitudes)
     return AimError(*(np.sqrt(dot(gap, gap)) + valid for gap in gaps))
 
@@ -76,43 +77,37 @@ def echo_history(
     orbit: SmoothOrbit,
     plan: SpotlightPlan,
     times: Array,
-    profile: AttitudeProfile,
+    profile: Profile,
 ) -> EchoHistory:
     """Echo of the aim point, from the phase center."""
     antenna = Antenna.of(request)
+
+    def seen(moments: Array) -> Echo:
+        return echo(
+            orbit,
+            plan.time + moments,
+            aim_point(request),
+            rotation_center=plan.rotation_center,
+            antenna=antenna,
+            wavelength=request.wavelength,
+        )
+
+    over, ends = seen(times), seen(0.5 * plan.aperture_time * np.array([-1.0, 0.0, 1.0]))
+    early = seen(0.5 * plan.first_order_time * np.array([-1.0, 1.0]))
+    swept = request.weighting * plan.ground_speed
+    bandwidth, first_order = (float(e.doppler[0] - e.doppler[-1]) for e in (ends, early))
     states = orbit.states(plan.time + times)
-    slant_range, doppler = _echo(request, orbit, plan, plan.time + times)
-    half = 0.5 * plan.aperture_time
-    ends, end_doppler = _echo(request, orbit, plan, plan.time + np.array([-half, 0.0, half]))
-    bandwidth = abs(end_doppler[0] - end_doppler[-1])
     body = profile.attitude @ orbit_axes(states)
     fallen = to_geodetic(_footprint(states.position, body, antenna, request.height))
-    valid = np.where(profile.pointing == Pointing.SOLVED, 0.0, np.nan)
+    valid = np.where(profile.outcome == Pointing.SOLVED, 0.0, np.nan)
     return EchoHistory(
-        slant_range=slant_range + valid,
-        doppler=doppler + valid,
-        bandwidth=float(bandwidth),
-        resolution=float(request.weighting * plan.ground_speed / bandwidth),
-        range_migration=float(np.ptp(ends)),
+        slant_range=over.slant_range + valid,
+        doppler=over.doppler + valid,
+        bandwidth=bandwidth,
+        resolution=swept / bandwidth,
+        first_order_bandwidth=first_order,
+        first_order_resolution=swept / first_order,
+        range_migration=float(np.ptp(ends.slant_range)),
         latitude=fallen.latitude,
         longitude=fallen.longitude,
     )
-
-
-def _echo(
-    request: SpotlightRequest, orbit: SmoothOrbit, plan: SpotlightPlan, times: Array
-) -> tuple[Array, Array]:
-    """Slant range [m] and Doppler frequency [Hz] of the aim point, (S,) each.
-
-    The Doppler is that of the phase center, which the turning body carries along.
-    """
-    states, antenna = orbit.states(times), Antenna.of(request)
-    turning = point(orbit, times, plan.rotation_center, antenna)
-    body = turning.attitude @ orbit_axes(states)
-    to_earth = np.swapaxes(body, -1, -2)
-    against_earth = turning.rate_inertial - rotate(body, EARTH_ROTATION)
-    carried = rotate(to_earth, np.cross(against_earth, antenna.phase_center))
-    path = aim_point(request) - states.position - rotate(to_earth, antenna.phase_center)
-    slant_range = np.sqrt(dot(path, path))
-    approach = dot(path, states.velocity + carried) / slant_range
-    return slant_range, 2.0 / request.wavelength * approach

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from typing import NamedTuple
 
@@ -18,23 +19,21 @@ from ..scenes.crossings import find_crossings, zero_doppler
 from ..scenes.passes import Direction
 from ..scenes.windows import Window, moment, search_window, utc
 from ..vectors import dot
+from .plans import PassPlan, SpotlightPlan
 from .smooth_orbit import smooth_orbit
-from .spotlight_results import SpotlightPlan, SpotlightRequest
+from .spotlight_aperture import solve_aperture
+from .spotlight_results import SpotlightRequest
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
 
-def plan_spotlight(request: SpotlightRequest) -> SpotlightPlan:
-    """Find the moment of zero Doppler and the time that the resolution needs.
+def plan_pass(request: SpotlightRequest) -> PassPlan:
+    """Find the moment of zero Doppler.
 
     Parameters
     ----------
-    request : aim point, orbit, resolution.
-
-    Returns
-    -------
-    SpotlightPlan.
+    request : aim point and orbit; its resolution does not matter.
 
     Raises
     ------
@@ -43,7 +42,7 @@ def plan_spotlight(request: SpotlightRequest) -> SpotlightPlan:
 
     References
     ----------
-    Han 2016 eqs (4)-(6).
+    Han 2016 eqs (5), (6).
     """
     trajectory, target = request.trajectory, aim_point(request)
     passages = _passages(request, target)
@@ -60,22 +59,7 @@ def plan_spotlight(request: SpotlightRequest) -> SpotlightPlan:
             "rotation there, and no aperture forms as in low orbit; choose a lower orbit or "
             "another pass"
         )
-    aperture = float(request.weighting * speed / (request.resolution * abs(rate)))
-    # A point of the scene is seen for the aperture time while a beam as wide as that takes slides
-    # over it; both ends of the scene are seen after this much more.
-    sliding = request.sliding_factor
-    extra = request.scene_length / (sliding * speed) if sliding > 0.0 else 0.0
-    # About a center at r/(1 − q) the beam sweeps the ground, across the zero-Doppler line, at
-    # q v²/v_ground, and the line itself at q = (v² − (x − r)·a)/v² = λr|f_a|/2v².
-    share = (
-        0.5
-        * request.wavelength
-        * abs(rate)
-        * look.slant_range
-        / dot(states.velocity, states.velocity)
-    )
-    beyond = look.slant_range * (1.0 / (1.0 - sliding * share) - 1.0)
-    return SpotlightPlan(
+    return PassPlan(
         time=time,
         epoch=moment(trajectory, time),
         passes=int(np.count_nonzero(passages.wanted)),
@@ -88,10 +72,58 @@ def plan_spotlight(request: SpotlightRequest) -> SpotlightPlan:
         azimuth=float(look.azimuth),
         doppler_rate=float(rate),
         ground_speed=float(speed),
-        aperture_time=aperture,
-        imaging_time=float(aperture + extra),
-        rotation_center=target + beyond * look.line_of_sight,
     )
+
+
+def plan_spotlight(request: SpotlightRequest) -> SpotlightPlan:
+    """Find the moment of zero Doppler and the time that the resolution needs.
+
+    Parameters
+    ----------
+    request : aim point, orbit, resolution.
+
+    Returns
+    -------
+    SpotlightPlan.
+
+    Raises
+    ------
+    ValueError
+        If the aim point is not imaged in the searched time, or the resolution is out of reach:
+        the message says why, and the remedy.
+
+    References
+    ----------
+    Han 2016 eqs (4)-(6): its time is that of first order.
+    """
+    plan = plan_pass(request)
+    place = aim_point(request)
+    center = _rotation_center(request, plan, place)
+    first_order = request.weighting * plan.ground_speed / (request.resolution * -plan.doppler_rate)
+    aperture = solve_aperture(request, plan, place, rotation_center=center, first_order=first_order)
+    # A point of the scene is seen for the aperture time while a beam as wide as that takes slides
+    # over it; both ends of the scene are seen after this much more.
+    sliding = request.sliding_factor
+    extra = request.scene_length / (sliding * plan.ground_speed) if sliding > 0.0 else 0.0
+    return SpotlightPlan(
+        **{each.name: getattr(plan, each.name) for each in dataclasses.fields(plan)},
+        aperture_time=aperture,
+        first_order_time=first_order,
+        imaging_time=aperture + extra,
+        rotation_center=center,
+    )
+
+
+def _rotation_center(request: SpotlightRequest, plan: PassPlan, place: Array) -> Array:
+    """Point at which the beam looks all the time, (3,)."""
+    states = request.trajectory.earth_fixed(plan.time)
+    path = place - states.position
+    # About a center at r/(1 − q) the beam sweeps the ground, across the zero-Doppler line, at
+    # q v²/v_ground, and the line itself at q = (v² − (x − r)·a)/v² = λr|f_a|/2v².
+    share = 0.5 * request.wavelength * -plan.doppler_rate * plan.slant_range
+    share = float(share / dot(states.velocity, states.velocity))
+    center: Array = place + path * (1.0 / (1.0 - request.sliding_factor * share) - 1.0)
+    return center
 
 
 def aim_point(request: SpotlightRequest) -> Array:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from datetime import datetime
 from enum import IntEnum
 from typing import Final, NamedTuple
 
@@ -16,6 +15,9 @@ from formation import Trajectory
 from ...scene import LookSide
 from ..scenes.passes import Direction
 from ..studies.results import Claim
+from .agility import Agility
+from .plans import SpotlightPlan
+from .profiles import Profile
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -33,35 +35,6 @@ class Pointing(IntEnum):
     """The aim point does not see the satellite."""
     OPPOSITE = 2
     """The beam would have to turn by 180°: no turn is the shortest."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Agility:
-    """How fast a satellite can turn.
-
-    Parameters
-    ----------
-    max_rate : scalar or three — of the angular velocity against inertial space: its magnitude, or
-        about each body axis [rad/s].
-    max_acceleration : the same of the angular acceleration [rad/s²].
-
-    Raises
-    ------
-    ValueError
-        If a limit is not positive.
-    """
-
-    max_rate: float | tuple[float, float, float] = math.inf
-    max_acceleration: float | tuple[float, float, float] = math.inf
-
-    def __post_init__(self) -> None:
-        for name in ("max_rate", "max_acceleration"):
-            limit = np.asarray(getattr(self, name), dtype=np.float64)
-            if limit.shape not in ((), (3,)) or not np.all(limit > 0.0):
-                raise ValueError(
-                    f"{name} = {getattr(self, name)!r} must be one positive number, or three, "
-                    "about X, Y and Z; give radians"
-                )
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -156,74 +129,6 @@ class SpotlightRequest:
             raise ValueError(f"{name} = {getattr(self, name)!r} must be {requirement}")
 
 
-class SpotlightPlan(NamedTuple):
-    """When the aim point is imaged, and for how long.
-
-    Attributes
-    ----------
-    time : scalar — of zero Doppler, the middle of the imaging, since the trajectory's epoch [s].
-    epoch : UTC of that time.
-    passes, number : how many there are in the searched time, and which this is.
-    side : where the aim point lies, seen along the Earth-fixed velocity.
-    ascending : whether the satellite flies northward.
-    slant_range, look_angle, incidence, azimuth : scalars — at zero Doppler [m, rad, rad, rad].
-    doppler_rate : scalar — f_a [Hz/s].
-    ground_speed : scalar — V_g of the zero-Doppler line over the ground, across itself [m/s].
-    aperture_time : scalar — T that the resolution needs [s].
-    imaging_time : scalar — the same, and the time in which the beam slides over the scene [s].
-    rotation_center : (3,) — point that the beam looks at: the aim point, or beyond it in sliding
-        spotlight; Earth-fixed [m].
-    """
-
-    time: float
-    epoch: datetime
-    passes: int
-    number: int
-    side: LookSide
-    ascending: bool
-    slant_range: float
-    look_angle: float
-    incidence: float
-    azimuth: float
-    doppler_rate: float
-    ground_speed: float
-    aperture_time: float
-    imaging_time: float
-    rotation_center: Array
-
-
-class AttitudeProfile(NamedTuple):
-    """Attitude of the body over the imaging; NaN where it has no solution.
-
-    Attributes
-    ----------
-    attitude : (S, 3, 3) — orbit frame to body.
-    yaw, pitch, roll : (S,) — in the sequence 3-1-2 [rad].
-    singular : (S,) — the roll is ±90°, where yaw and pitch are not told apart.
-    quaternion_orbit, quaternion_inertial : (S, 4) — against the orbit frame and against the GCRS,
-        scalar last, without jumps of sign.
-    rate_orbit, rate_inertial : (S, 3) — angular velocity in body axes [rad/s].
-    acceleration_orbit, acceleration_inertial : (S, 3) — rates of change of these [rad/s²].
-    pointing : (S,) of `Pointing` — solved, or why not.
-    rate_exceeded, acceleration_exceeded : (S,) — the agility would not do.
-    """
-
-    attitude: Array
-    yaw: Array
-    pitch: Array
-    roll: Array
-    singular: Mask
-    quaternion_orbit: Array
-    quaternion_inertial: Array
-    rate_orbit: Array
-    rate_inertial: Array
-    acceleration_orbit: Array
-    acceleration_inertial: Array
-    pointing: NDArray[np.int_]
-    rate_exceeded: Mask
-    acceleration_exceeded: Mask
-
-
 class Iteration(NamedTuple):
     """The attitude by Han's iteration.
 
@@ -265,9 +170,11 @@ class EchoHistory(NamedTuple):
     Attributes
     ----------
     slant_range : (S,) — from the antenna's phase center [m].
-    doppler : (S,) — from the motion of the center of mass [Hz].
+    doppler : (S,) — of the phase center, which the turning body carries along [Hz].
     bandwidth : scalar — of the Doppler over the aperture time [Hz].
     resolution : scalar — that this bandwidth gives, k_wa V_g/B [m].
+    first_order_bandwidth, first_order_resolution : scalars — the same over the aperture time of
+        first order [Hz, m].
     range_migration : scalar — largest less smallest slant range over the aperture time [m].
     latitude, longitude : (S,) — where the beam's center falls [rad].
     """
@@ -276,6 +183,8 @@ class EchoHistory(NamedTuple):
     doppler: Array
     bandwidth: float
     resolution: float
+    first_order_bandwidth: float
+    first_order_resolution: float
     range_migration: float
     latitude: Array
     longitude: Array
@@ -299,7 +208,7 @@ class SpotlightResult:
     request: SpotlightRequest
     plan: SpotlightPlan
     times: Array
-    profile: AttitudeProfile
+    profile: Profile
     iteration: Iteration
     aim_error: AimError
     history: EchoHistory

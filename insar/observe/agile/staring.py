@@ -15,8 +15,9 @@ from ..frames import rtn_axes
 from ..look import look_at
 from ..scenes.windows import moment
 from ..vectors import rotate, unit
+from .plans import PassPlan
 from .spotlight_plan import aim_point
-from .spotlight_results import SpotlightPlan, SpotlightRequest
+from .spotlight_results import SpotlightRequest
 
 Array = NDArray[np.float64]
 
@@ -40,7 +41,7 @@ class StaringScene(NamedTuple):
     epoch: datetime
     eccentricity: float
     request: SpotlightRequest
-    plan: SpotlightPlan
+    plan: PassPlan
     duration: float
 
     @property
@@ -56,7 +57,7 @@ class StaringScene(NamedTuple):
 
 def staring_scene(
     request: SpotlightRequest,
-    plan: SpotlightPlan,
+    plan: PassPlan,
     *,
     duration: float,
     segments: int,

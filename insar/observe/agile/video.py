@@ -14,9 +14,10 @@ from numpy.typing import NDArray
 
 from formation import States
 
+from .plans import PassPlan
+from .profiles import Profile
 from .smooth_orbit import SmoothOrbit, smooth_orbit
-from .spotlight_plan import aim_point, plan_spotlight
-from .spotlight_results import SpotlightPlan
+from .spotlight_plan import aim_point, plan_pass
 from .staring import StaringScene, staring_scene
 from .video_attitude import hold, staring_profile
 from .video_footprint import distortion, footprint_map, footprints, pointing_effect
@@ -26,7 +27,6 @@ from .video_results import (
     Footprints,
     LawSummary,
     Staring,
-    StaringProfile,
     VideoRequest,
     VideoResult,
     YawLaw,
@@ -60,7 +60,7 @@ def video(request: VideoRequest, samples: int = 1001, outlines: int = 101) -> Vi
     for name, value in (("samples", samples), ("outlines", outlines)):
         if value < 2:
             raise ValueError(f"{name} = {value!r} must be at least 2")
-    plan = plan_spotlight(request.as_spotlight())
+    plan = plan_pass(request.as_spotlight())
     half = 0.5 * request.duration
     film = _Film(request, _orbit(request, plan), plan, np.linspace(-half, half, samples))
     few = film._replace(times=np.linspace(-half, half, outlines))
@@ -114,7 +114,7 @@ class _Film(NamedTuple):
 
     request: VideoRequest
     orbit: SmoothOrbit
-    plan: SpotlightPlan
+    plan: PassPlan
     times: Array
 
     @property
@@ -137,12 +137,12 @@ class _Film(NamedTuple):
         reference = self.plan.time + self.request.reference_time
         return hold(law, self.orbit, reference, self.target, self.beam)
 
-    def profile(self, law: YawLaw) -> StaringProfile:
+    def profile(self, law: YawLaw) -> Profile:
         """Attitude under a law."""
         moments = self.plan.time + self.times
         return staring_profile(self.orbit, moments, self.held(law), agility=self.request.agility)
 
-    def distortion(self, law: YawLaw, profile: StaringProfile) -> Distortion:
+    def distortion(self, law: YawLaw, profile: Profile) -> Distortion:
         """Of the footprint, under the law of the profile."""
         reference = self._replace(times=np.array([self.request.reference_time]))
         first = reference.profile(law)
@@ -158,7 +158,7 @@ class _Film(NamedTuple):
         return footprints(self.times, self.states, attitude, self.target, beam=self.beam)
 
 
-def _orbit(request: VideoRequest, plan: SpotlightPlan) -> SmoothOrbit:
+def _orbit(request: VideoRequest, plan: PassPlan) -> SmoothOrbit:
     """The orbit over the film and half a frame more at either end."""
     half = 0.5 * request.duration
     speed = effective_speed(
@@ -199,7 +199,7 @@ def _summary(law: YawLaw, film: _Film, few: _Film) -> LawSummary:
         rate_orbit=_largest(np.linalg.norm(profile.rate_orbit, axis=-1)),
         rate_inertial=_largest(np.linalg.norm(profile.rate_inertial, axis=-1)),
         common_area=float(seen.common_area / at_reference.area[0]),
-        solved=float(np.mean(profile.staring == Staring.SOLVED)),
+        solved=float(np.mean(profile.outcome == Staring.SOLVED)),
     )
 
 

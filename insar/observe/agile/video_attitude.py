@@ -6,7 +6,7 @@ that the body's X axis keeps about the line of sight.
 
 from __future__ import annotations
 
-from typing import Final, NamedTuple
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,28 +14,18 @@ from numpy.typing import NDArray
 from ..earth import vertical
 from ..frames import orbit_axes
 from ..look import look_at
-from ..vectors import dot, rotate, unit
-from .rotations import EulerSequence, continuous, euler_sequence, quaternion
+from ..vectors import rotate, unit
+from .agility import Agility
+from .profiles import Outcomes, Pointed, Profile, profile_of
+from .rotations import EulerSequence
 from .smooth_orbit import SmoothOrbit
-from .spotlight_results import Agility
 from .turning import inertial_rate, moving_shortest_turn, orbit_frame
-from .video_results import Staring, StaringProfile, YawLaw
+from .video_results import Staring, YawLaw
 from .video_yaw import X_DIRECTIONS, Beam, Held, ground_map, major_axis, sight_of
 
 Array = NDArray[np.float64]
 
 _Z_AXIS: Final = np.array([0.0, 0.0, 1.0])
-_DIFFERENCE: Final = 1e-3
-"""Step of the rates' derivative, in units of range by speed, in which geometry changes: an error
-of 1e-6 of the acceleration."""
-
-
-class Attitude(NamedTuple):
-    """Attitude (S, 3, 3) and its rates against orbit frame and inertial space, (S, 3) [rad/s]."""
-
-    attitude: Array
-    rate_orbit: Array
-    rate_inertial: Array
 
 
 def hold(law: YawLaw, orbit: SmoothOrbit, time: float, target: Array, beam: Beam) -> Held:
@@ -65,7 +55,7 @@ def hold(law: YawLaw, orbit: SmoothOrbit, time: float, target: Array, beam: Beam
     )
 
 
-def stare(orbit: SmoothOrbit, times: Array, held: Held) -> Attitude:
+def stare(orbit: SmoothOrbit, times: Array, held: Held) -> Pointed:
     """Attitude that points the body's Z at the target, and its rates.
 
     Parameters
@@ -76,7 +66,7 @@ def stare(orbit: SmoothOrbit, times: Array, held: Held) -> Attitude:
 
     Returns
     -------
-    Attitude — NaN where the law leaves the turn about the line of sight open.
+    Pointed — NaN where the law leaves the turn about the line of sight open.
 
     Notes
     -----
@@ -101,12 +91,12 @@ def stare(orbit: SmoothOrbit, times: Array, held: Held) -> Attitude:
         turning = np.cross(line, sight.line_rate) + spin[:, None] * line
         rate = rotate(attitude, turning)
         attitude = attitude + 0.0 * spin[:, None, None]  # rows of one sample are all NaN or none
-    return Attitude(attitude, rate, inertial_rate(attitude, rate, frame.rate))
+    return Pointed(attitude, rate, inertial_rate(attitude, rate, frame.rate))
 
 
 def staring_profile(
     orbit: SmoothOrbit, times: Array, held: Held, *, agility: Agility | None = None
-) -> StaringProfile:
+) -> Profile:
     """Attitude, angles, rates and accelerations while the body stares.
 
     Parameters
@@ -118,39 +108,17 @@ def staring_profile(
 
     Returns
     -------
-    StaringProfile — the rates are closed forms; the accelerations are differences of them over
-    `_DIFFERENCE`, whatever the spacing of the times.
+    Profile — angles in the sequence 1-2-3; the rates are closed forms.
     """
-    states = orbit.states(times)
-    now = stare(orbit, times, held)
-    staring = _staring(look_at(states, held.target).visible, now.attitude, held.law)
-    mask = np.where(staring == Staring.SOLVED, 0.0, np.nan)[:, None]
-    step = _DIFFERENCE * float(
-        np.min(np.linalg.norm(held.target - states.position, axis=-1))
-        / np.max(np.linalg.norm(states.velocity, axis=-1))
-    )
-    before, after = (stare(orbit, times + shift, held) for shift in (-step, step))
-    attitude = now.attitude + mask[..., None]
-    angles = euler_sequence(attitude, EulerSequence.ONE_TWO_THREE)
-    rate_inertial = now.rate_inertial + mask
-    acceleration = (after.rate_inertial - before.rate_inertial) / (2.0 * step) + mask
-    to_body = attitude @ orbit_axes(states) @ orbit.from_celestial(times)
-    limits = agility or Agility()
-    return StaringProfile(
-        attitude=attitude,
-        roll=angles.roll,
-        pitch=angles.pitch,
-        yaw=angles.yaw,
-        singular=angles.singular,
-        quaternion_orbit=continuous(quaternion(attitude)),
-        quaternion_inertial=continuous(quaternion(to_body)),
-        rate_orbit=now.rate_orbit + mask,
-        rate_inertial=rate_inertial,
-        acceleration_orbit=(after.rate_orbit - before.rate_orbit) / (2.0 * step) + mask,
-        acceleration_inertial=acceleration,
-        staring=staring,
-        rate_exceeded=_exceeds(rate_inertial, limits.max_rate),
-        acceleration_exceeded=_exceeds(acceleration, limits.max_acceleration),
+    visible = look_at(orbit.states(times), held.target).visible
+    return profile_of(
+        orbit,
+        times,
+        lambda moments: stare(orbit, moments, held),
+        target=held.target,
+        sequence=EulerSequence.ONE_TWO_THREE,
+        outcomes=lambda attitude: _staring(visible, attitude, held.law),
+        agility=agility,
     )
 
 
@@ -168,18 +136,8 @@ def _nearest_branch(held: Held, orbit: SmoothOrbit, time: float, body: Array) ->
     return candidates[int(np.nanargmax(alignments))]
 
 
-def _staring(visible: NDArray[np.bool_], attitude: Array, law: YawLaw) -> NDArray[np.int_]:
+def _staring(visible: NDArray[np.bool_], attitude: Array, law: YawLaw) -> Outcomes:
     """Reasons, (S,)."""
     why = Staring.AXIS_LOST if law is YawLaw.MAJOR_AXIS else Staring.UNDEFINED
     solved = np.isfinite(np.sum(attitude, axis=(-1, -2)))
     return np.where(visible, np.where(solved, Staring.SOLVED, why), Staring.BELOW_HORIZON)
-
-
-def _exceeds(vector: Array, limit: float | tuple[float, float, float]) -> NDArray[np.bool_]:
-    """Whether a magnitude, or any component, is above its limit, (S,); not where it is NaN."""
-    bound = np.asarray(limit, dtype=np.float64)
-    if bound.ndim == 0:
-        above: NDArray[np.bool_] = np.sqrt(dot(vector, vector)) > bound
-    else:
-        above = np.any(np.abs(vector) > bound, axis=-1)
-    return above

@@ -18,9 +18,9 @@ from ..doppler import doppler_of_direction, doppler_rate
 from ..earth import vertical
 from ..look import look_at
 from ..vectors import dot, safe_arcsin, unit
+from .plans import PassPlan
 from .smooth_orbit import SmoothOrbit
 from .spotlight_plan import aim_point
-from .spotlight_results import SpotlightPlan
 from .video_results import FrameModel, Frames, VideoRequest
 
 Array = NDArray[np.float64]
@@ -154,7 +154,7 @@ def rate_limit(
     return rate
 
 
-def cut_frames(request: VideoRequest, orbit: SmoothOrbit, plan: SpotlightPlan) -> Frames:
+def cut_frames(request: VideoRequest, orbit: SmoothOrbit, plan: PassPlan) -> Frames:
     """Frames of a film, one at zero Doppler and the others at the frame rate to both sides.
 
     Parameters
@@ -215,7 +215,7 @@ def _model(
 
 
 def _exact_duration(
-    request: VideoRequest, orbit: SmoothOrbit, plan: SpotlightPlan, times: Array, guess: Array
+    request: VideoRequest, orbit: SmoothOrbit, plan: PassPlan, times: Array, guess: Array
 ) -> Array:
     """Time around each moment in which the aim point's Doppler runs through the bandwidth, (...).
 

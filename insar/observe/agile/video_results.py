@@ -14,13 +14,10 @@ from formation import Trajectory
 
 from ...scene import LookSide
 from ..scenes.passes import Direction
-from .spotlight_results import (
-    FAR_INCIDENCE,
-    NEAR_INCIDENCE,
-    Agility,
-    SpotlightPlan,
-    SpotlightRequest,
-)
+from .agility import Agility
+from .plans import PassPlan
+from .profiles import Profile
+from .spotlight_results import FAR_INCIDENCE, NEAR_INCIDENCE, SpotlightRequest
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -204,38 +201,6 @@ class Frames(NamedTuple):
     complete: Mask
 
 
-class StaringProfile(NamedTuple):
-    """Attitude of the body over the film, S samples; NaN where it has no solution.
-
-    Attributes
-    ----------
-    attitude : (S, 3, 3) — orbit frame to body; the beam is along the body's Z.
-    roll, pitch, yaw : (S,) — in the sequence 1-2-3 [rad].
-    singular : (S,) — the pitch is ±90°, where roll and yaw are not told apart.
-    quaternion_orbit, quaternion_inertial : (S, 4) — against the orbit frame and against the GCRS,
-        scalar last, without jumps of sign.
-    rate_orbit, rate_inertial : (S, 3) — angular velocity in body axes [rad/s].
-    acceleration_orbit, acceleration_inertial : (S, 3) — rates of change of these [rad/s²].
-    staring : (S,) of `Staring` — solved, or why not.
-    rate_exceeded, acceleration_exceeded : (S,) — the agility would not do.
-    """
-
-    attitude: Array
-    roll: Array
-    pitch: Array
-    yaw: Array
-    singular: Mask
-    quaternion_orbit: Array
-    quaternion_inertial: Array
-    rate_orbit: Array
-    rate_inertial: Array
-    acceleration_orbit: Array
-    acceleration_inertial: Array
-    staring: NDArray[np.int_]
-    rate_exceeded: Mask
-    acceleration_exceeded: Mask
-
-
 class Distortion(NamedTuple):
     """How the footprint differs from that at the reference time, to first order of the beamwidths.
 
@@ -331,7 +296,7 @@ class VideoResult:
     Attributes
     ----------
     request : what was asked for.
-    plan : moment and geometry of zero Doppler; its aperture time is that of the middle frame.
+    plan : moment and geometry of zero Doppler.
     frames : how the data are cut.
     times : (S,) — since zero Doppler [s].
     profile, distortion, pointing : over these times.
@@ -342,10 +307,10 @@ class VideoResult:
     """
 
     request: VideoRequest
-    plan: SpotlightPlan
+    plan: PassPlan
     frames: Frames
     times: Array
-    profile: StaringProfile
+    profile: Profile
     distortion: Distortion
     pointing: PointingEffect
     footprints: Footprints

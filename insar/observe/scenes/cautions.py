@@ -81,29 +81,49 @@ def _of_targets(observation: Observation) -> Iterator[str]:
         )
 
 
-def _of_orbit(observation: Flown) -> Iterator[str]:
-    yield from _of_age(observation)
-    if observation.eccentricity > NEARLY_CIRCULAR:
+def _of_orbit(flown: Flown) -> Iterator[str]:
+    last = flown.epoch + timedelta(seconds=float(flown.scene.times[-1]))
+    yield from dated_cautions(flown.orbit_source, flown.orbit_epoch, first=flown.epoch, last=last)
+    if flown.eccentricity > NEARLY_CIRCULAR:
         yield (
-            f"The orbit has an eccentricity of {observation.eccentricity:.3g}, and the satellites "
+            f"The orbit has an eccentricity of {flown.eccentricity:.3g}, and the satellites "
             "move about a circle: relative positions, right at the epoch, are wrong by up to "
-            f"{300 * observation.eccentricity:.2g} % of their size within a revolution."
+            f"{300 * flown.eccentricity:.2g} % of their size within a revolution."
         )
-    last = observation.epoch + timedelta(seconds=float(observation.scene.times[-1]))
-    if orientation_coverage(observation.epoch, last) is Coverage.HELD:
+
+
+def dated_cautions(
+    source: str, elements: datetime, *, first: datetime, last: datetime, what: str = "The pass"
+) -> Iterator[str]:
+    """Warnings of an orbit that is used on a date for which it is not good.
+
+    Parameters
+    ----------
+    source : what the orbit is known from.
+    elements : UTC of its elements, or of the beginning of its ephemeris.
+    first, last : UTC between which it is used.
+    what : uses it.
+
+    Yields
+    ------
+    One sentence or two each: on the age of the elements, and on a date beyond the table of the
+    Earth's rotation.
+    """
+    yield from _of_age(source, elements, first, what)
+    if orientation_coverage(first, last) is Coverage.HELD:
         span = orientation_span()
         yield (
             f"The table of the Earth's rotation covers {span.first:%Y-%m-%d} to "
-            f"{span.last_predicted:%Y-%m-%d}, and the pass is on {observation.epoch:%Y-%m-%d}: the "
-            "ground track may be off by 0.1 km within a year and 1 km within five. A newer "
-            "astropy-iers-data mends it."
+            f"{span.last_predicted:%Y-%m-%d}, and {what[:1].lower()}{what[1:]} is on "
+            f"{first:%Y-%m-%d}: the ground track may be off by 0.1 km within a year and 1 km "
+            "within five. A newer astropy-iers-data mends it."
         )
 
 
-def _of_age(observation: Flown) -> Iterator[str]:
-    """Warnings of elements that are far from the date of the pass."""
-    age, source = observation.epoch - observation.orbit_epoch, observation.orbit_source
-    far = f"The pass is {abs(age).days} days {'after' if age > timedelta(0) else 'before'}"
+def _of_age(source: str, elements: datetime, first: datetime, what: str) -> Iterator[str]:
+    """Warnings of elements that are far from the date on which they are used."""
+    age = first - elements
+    far = f"{what} is {abs(age).days} days {'after' if age > timedelta(0) else 'before'}"
     if source.startswith("two-line elements") and abs(age) > FRESH_TWO_LINES:
         yield (
             f"{far} the epoch of the {source}: the satellite may be {abs(age).days} to "

@@ -6,6 +6,8 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from ..scenes.cautions import dated_cautions
+from ..scenes.windows import moment
 from ..steering import Outcome
 from .results import CaseResult, LawCurves
 
@@ -31,6 +33,15 @@ def cautions(cases: Sequence[CaseResult]) -> tuple[str, ...]:
 
 
 def _cautions(case: CaseResult) -> Iterator[str]:
+    trajectory, times = case.case.trajectory, case.case.times
+    for text in dated_cautions(
+        trajectory.source,
+        trajectory.epoch,
+        first=moment(trajectory, float(times[0])),
+        last=moment(trajectory, float(times[-1])),
+        what="The time that is studied",
+    ):
+        yield f"{case.name}: {text[:1].lower()}{text[1:]}"
     for curves in case.curves:
         solved = float(np.mean(curves.outcome == Outcome.SOLVED))
         if solved < 1.0:
