@@ -605,7 +605,9 @@ def test_the_imaging_time_gives_the_resolution(resolution, phase_center):
     share = result.history.bandwidth * request.wavelength / (4.0 * speed)
     longer = plan.aperture_time / plan.first_order_time
     assert share < 0.9
-    assert longer - 1.0 == pytest.approx(1.0 / math.sqrt(1.0 - share**2) - 1.0, rel=0.1 + 0.4 * share)
+    assert longer - 1.0 == pytest.approx(
+        1.0 / math.sqrt(1.0 - share**2) - 1.0, rel=0.1 + 0.4 * share
+    )
 
 
 def test_the_imaging_time_against_the_range_of_the_trajectory():
