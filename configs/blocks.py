@@ -7,6 +7,7 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import Discriminator, Field, Tag, model_validator
 
 from .base import Block, Name, Number, wrong
+from .systematic import CalibrationBlock, IonosphereBlock, ScaleWord, TroposphereBlock
 
 
 def _form_of_images(value: Any) -> str:
@@ -25,6 +26,12 @@ class RadarBlock(Block):
     )
     slant_range_resolution_m: Number = Field(
         ge=0.05, le=200, description="Resolution along the line of sight: c/2B, not on the ground."
+    )
+    azimuth_resolution_m: Number | None = Field(
+        default=None,
+        ge=0.05,
+        le=200,
+        description="Resolution along track; ties the looks to the posting of the elevation model.",
     )
     looks: Number = Field(
         default=1.0,
@@ -115,9 +122,6 @@ class RadarBlock(Block):
         return 0.0 if self.snr_db is None else self.snr_db
 
 
-ScaleWord = Literal["pixel", "scene"]
-
-
 class ErrorsBlock(Block):
     """How large each error is, who shares it, and what the estimate takes for independent."""
 
@@ -139,7 +143,9 @@ class ErrorsBlock(Block):
         "independent one in each pair.",
     )
     position_scale: ScaleWord | None = Field(
-        default=None, description="scene (default): the same over the scene; pixel: random."
+        default=None,
+        description="How far it stays the same: scene (default), data_take, orbit, mission; "
+        "pixel: random.",
     )
     azimuth_on_ground_m: Number | None = Field(
         default=None,
@@ -161,7 +167,9 @@ class ErrorsBlock(Block):
         description="all (default): there is one target, so one error; pair: Li 2009's form.",
     )
     azimuth_scale: ScaleWord | None = Field(
-        default=None, description="scene (default): the same over the scene; pixel: random."
+        default=None,
+        description="How far it stays the same: scene (default), data_take, orbit, mission; "
+        "pixel: random.",
     )
     range_m: Number | None = Field(
         default=None,
@@ -170,7 +178,9 @@ class ErrorsBlock(Block):
         description="Standard deviation of the slant range, common to all images; default 0.",
     )
     range_scale: ScaleWord | None = Field(
-        default=None, description="scene (default): the same over the scene; pixel: random."
+        default=None,
+        description="How far it stays the same: scene (default), data_take, orbit, mission; "
+        "pixel: random.",
     )
     synchronization_deg: Number | None = Field(
         default=None,
@@ -182,7 +192,20 @@ class ErrorsBlock(Block):
         default=None, description="image (default): each image has its own; pair: each pair."
     )
     synchronization_scale: ScaleWord | None = Field(
-        default=None, description="scene (default): the same over the scene; pixel: random."
+        default=None,
+        description="How far it stays the same: scene (default), data_take, orbit, mission; "
+        "pixel: random.",
+    )
+    troposphere: TroposphereBlock | None = Field(
+        default=None, description="The differential troposphere; absent: neglected."
+    )
+    ionosphere: IonosphereBlock | None = Field(
+        default=None, description="The differential ionosphere; absent: neglected."
+    )
+    calibration: CalibrationBlock | None = Field(
+        default=None,
+        description="Adjustment of the heights to control points; leaves the height error of the "
+        "search alone and acts on the relative and absolute errors at 90 %.",
     )
     weighting: Literal["joint", "pairs"] | None = Field(
         default=None,

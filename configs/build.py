@@ -18,7 +18,7 @@ from formation import (
 )
 from insar.observe import Observation
 from insar.observe.agile.staring import StaringScene
-from optimize import DesignSpace, GeneticSettings, Problem, SearchSettings
+from optimize import DemRequest, DesignSpace, GeneticSettings, Problem, SearchSettings
 
 from .domain import build_problem
 from .formations import ComparedFormation, Family, RadialStart, Satellite, Sign
@@ -76,6 +76,7 @@ class OptimizeSetup(NamedTuple):
     initial_design : (D,) — the formation given, if it lies in the searched box; else None.
     compare : formations to show beside the result.
     critical_baseline : the smallest over the segments [m].
+    dem : what is asked of the elevation model.
     orbit : the reference orbit.
     observation : where the scene comes from; None if the study gives it.
     """
@@ -87,6 +88,7 @@ class OptimizeSetup(NamedTuple):
     initial_design: Array | None
     compare: tuple[NamedStates, ...]
     critical_baseline: float
+    dem: DemRequest
     orbit: Orbit
     observation: Observation | StaringScene | None
 
@@ -101,6 +103,7 @@ class EvaluateSetup(NamedTuple):
     states : (N, 6) — the formation, RTN at t = 0 [m, m/s].
     compare : formations to show beside it.
     critical_baseline : the smallest over the segments [m].
+    dem : what is asked of the elevation model.
     orbit : the reference orbit.
     observation : where the scene comes from; None if the study gives it.
     """
@@ -110,6 +113,7 @@ class EvaluateSetup(NamedTuple):
     states: Array
     compare: tuple[NamedStates, ...]
     critical_baseline: float
+    dem: DemRequest
     orbit: Orbit
     observation: Observation | StaringScene | None
 
@@ -128,7 +132,7 @@ def build_optimize(study: OptimizeStudy) -> OptimizeSetup:
     """
     names, formation = study.formation.names, study.formation
     view = build_view(study)
-    problem, critical = build_problem(study, names, study.constraints, view)
+    problem, critical, dem = build_problem(study, names, study.constraints, view)
     constraints, n = problem.constraints, problem.mean_motion
     amplitude = math.inf if constraints.max_radius is None else constraints.max_radius / 2.0
     offset, rate = constraints.max_offset, constraints.max_rate
@@ -158,6 +162,7 @@ def build_optimize(study: OptimizeStudy) -> OptimizeSetup:
         initial_design=design,
         compare=_compare(study.compare, names, n, family=formation.family, sign=sign),
         critical_baseline=critical,
+        dem=dem,
         orbit=view.orbit,
         observation=view.observation,
     )
@@ -177,7 +182,7 @@ def build_evaluate(study: EvaluateStudy) -> EvaluateSetup:
     """
     names, formation = study.formation.names, study.formation
     view = build_view(study)
-    problem, critical = build_problem(study, names, study.constraints, view)
+    problem, critical, dem = build_problem(study, names, study.constraints, view)
     n, family, sign = problem.mean_motion, formation.family, formation.cross_track_sign
     return EvaluateSetup(
         problem=problem,
@@ -185,6 +190,7 @@ def build_evaluate(study: EvaluateStudy) -> EvaluateSetup:
         states=_states(formation.satellites, names, n, family=family, sign=sign),
         compare=_compare(study.compare, names, n, family=family, sign=sign),
         critical_baseline=critical,
+        dem=dem,
         orbit=view.orbit,
         observation=view.observation,
     )

@@ -12,7 +12,7 @@ from formation.constants import EARTH_EQUATORIAL_RADIUS
 from formation.separation import NEGLIGIBLE_DRIFT
 
 from .base import wrong
-from .blocks import RadarBlock
+from .blocks import ErrorsBlock, RadarBlock
 from .formations import ComparedFormation, RadialStart, Satellite
 from .messages import KeyPath, did_you_mean, show
 from .observation import ObservationBlock
@@ -225,6 +225,17 @@ def check_size(radar: RadarBlock, scene: SceneBlock, satellites: int, population
             f"time is too large for memory: formations x segments x images squared may reach "
             f"{MAX_ENTRIES:.0e}",
             "take fewer segments, or a smaller search.population",
+        )
+
+
+def check_shell(errors: ErrorsBlock, orbit: Orbit) -> None:
+    """The ionosphere lies below the satellites."""
+    ionosphere = errors.ionosphere
+    if ionosphere is not None and 1e3 * ionosphere.shell_height_km >= orbit.altitude:
+        raise wrong(
+            ("errors", "ionosphere", "shell_height_km"),
+            f"is not below the orbit at {orbit.altitude / 1e3:g} km, so that no ray passes it",
+            "take about 350, and count the electrons below the satellites only",
         )
 
 

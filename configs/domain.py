@@ -10,9 +10,11 @@ import numpy as np
 
 from insar import (
     BaselineDecorrelation,
+    Calibration,
     ErrorBudget,
     ErrorSource,
     HeldConstant,
+    Ionosphere,
     Radar,
     Scale,
     Scene,
@@ -23,17 +25,20 @@ from insar import (
     ping_pong,
     scene_critical_baseline,
 )
-from optimize import Constraints, Problem
+from insar.atmosphere import TEC_UNIT
+from optimize import Constraints, DemRequest, Problem
 
 from .blocks import ErrorsBlock, RadarBlock
+from .dem_request import build_dem, looks_of
 from .limits import LimitsBlock
 from .observing import View
 from .studies import FormationStudy
+from .systematic import CalibrationBlock, IonosphereBlock
 
 
 def build_problem(
     study: FormationStudy, names: Sequence[str], limits: LimitsBlock, view: View
-) -> tuple[Problem, float]:
+) -> tuple[Problem, float, DemRequest]:
     """Build what formations are scored by.
 
     Parameters
@@ -47,20 +52,29 @@ def build_problem(
     -------
     problem : in SI units and radians.
     critical_baseline : the smallest over the segments, for the radar's multiplicity [m].
+    dem : what is asked of the elevation model.
+
+    Raises
+    ------
+    BuildError
+        If posting or swath of the elevation model do not fit radar and scene.
     """
-    radar, scene = _radar(study.radar, names), view.scene
+    scene = view.scene
+    calibration = _calibration(study.errors.calibration)
+    dem = build_dem(study.dem, study.radar, scene, calibration)
+    radar = _radar(study.radar, names, looks=looks_of(study.radar, dem, scene))
     critical = float(scene_critical_baseline(scene, radar, multiplicity=radar.multiplicity).min())
     problem = Problem(
         mean_motion=view.orbit.mean_motion,
         scene=scene,
         radar=radar,
-        errors=_errors(study.errors, radar, scene),
+        errors=replace(_errors(study.errors, radar, scene), calibration=calibration),
         constraints=_constraints(limits, critical),
     )
-    return problem, critical
+    return problem, critical, dem
 
 
-def _radar(block: RadarBlock, names: Sequence[str]) -> Radar:
+def _radar(block: RadarBlock, names: Sequence[str], *, looks: float) -> Radar:
     if isinstance(block.images, tuple):
         images = tuple((names.index(tx), names.index(rx)) for tx, rx in block.images)
     elif block.images == "one_transmitter":
@@ -72,7 +86,7 @@ def _radar(block: RadarBlock, names: Sequence[str]) -> Radar:
         wavelength=block.wavelength_m,
         slant_range_resolution=block.slant_range_resolution_m,
         snr=10.0 ** (block.signal_to_noise_db / 10.0),
-        looks=block.looks,
+        looks=looks,
         images=images,
         other_coherence=block.other_coherence,
     )
@@ -102,12 +116,41 @@ def _errors(block: ErrorsBlock, radar: Radar, scene: Scene) -> ErrorBudget:
             block.synchronization_shared_by,
             block.synchronization_scale,
         ),
+        troposphere=base.troposphere
+        if block.troposphere is None
+        else ErrorSource(block.troposphere.std, SharedBy.ALL, Scale(block.troposphere.scale)),
+        ionosphere=_ionosphere(block.ionosphere),
         weighting=base.weighting if weighting is None else Weighting(weighting),
         baseline_decorrelation=(
             base.baseline_decorrelation if lost is None else BaselineDecorrelation(lost)
         ),
         held_constant=held,
         phase_std=base.phase_std if phase_std is None else math.radians(phase_std),
+    )
+
+
+def _ionosphere(block: IonosphereBlock | None) -> Ionosphere | None:
+    if block is None:
+        return None
+    return Ionosphere(
+        electrons=block.electrons_tecu * TEC_UNIT,
+        gradient=block.gradient_tecu_100km * TEC_UNIT / 100e3,
+        shell_height=1e3 * block.shell_height_km,
+        scale=Scale(block.scale),
+    )
+
+
+def _calibration(block: CalibrationBlock | None) -> Calibration | None:
+    if block is None:
+        return None
+    return Calibration(
+        swath=1e3 * block.swath_km,
+        length=1e3 * block.length_km,
+        spacing_across=1e3 * block.spacing_across_km,
+        spacing_along=1e3 * block.spacing_along_km,
+        accuracy=block.accuracy_m,
+        bias=block.bias_m,
+        over=Scale(block.over),
     )
 
 

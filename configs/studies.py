@@ -19,11 +19,13 @@ from .checks import (
     check_names,
     check_observation,
     check_placed,
+    check_shell,
     check_size,
     check_strip,
     check_table,
 )
 from .claims import ClaimBlock
+from .dem import DemBlock, check_looks
 from .formations import ComparedFormation, EvaluatedFormation, SearchedFormation
 from .limits import LimitsBlock, SearchBlock, SearchLimitsBlock
 from .observation import SideName
@@ -51,6 +53,9 @@ class FormationStudy(Study):
     radar: RadarBlock = Field(description="The radar and its images.")
     scene: SceneBlock = Field(description="What is observed.")
     errors: ErrorsBlock = Field(description="The error budget.")
+    dem: DemBlock | None = Field(
+        default=None, description="The elevation model that is wanted; null judges none."
+    )
     compare: tuple[ComparedFormation, ...] = Field(
         default=(),
         max_length=20,
@@ -74,6 +79,9 @@ class FormationStudy(Study):
             check_placed(self.orbit)
         check_names(names)
         check_images(self.radar, names)
+        check_shell(self.errors, orbit)
+        if self.dem is not None:
+            check_looks(self.dem, self.radar)
         check_labels(self.compare)
         for index, compared in enumerate(self.compare):
             check_members(compared.satellites, names, ("compare", index, "satellites"))

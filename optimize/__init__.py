@@ -2,6 +2,7 @@
 
 from .assessment import Assessment, ImagePair, Rung, Unwrapping, assess
 from .constraints import Bound, ConstraintReport, Constraints, FailureLimit, Limit
+from .dem_verdict import DemRequest, DemVerdict, FailedDemand, dem_verdict, looks_for
 from .design_space import DesignSpace, DesignVariables
 from .findings import findings
 from .genetic import GeneticSettings
@@ -15,10 +16,13 @@ __all__ = [
     "Bound",
     "ConstraintReport",
     "Constraints",
+    "DemRequest",
+    "DemVerdict",
     "DesignSpace",
     "DesignVariables",
     "EvaluateResult",
     "Evaluation",
+    "FailedDemand",
     "FailureLimit",
     "GenerationRecord",
     "GeneticSettings",
@@ -31,7 +35,9 @@ __all__ = [
     "SearchSettings",
     "Unwrapping",
     "assess",
+    "dem_verdict",
     "findings",
+    "looks_for",
     "search",
     "structured_designs",
 ]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from .assessment import Assessment
+from .dem_verdict import DemVerdict
 from .problem import Problem
 from .search import SearchResult
 
@@ -23,6 +24,7 @@ class OptimizeResult:
     search : how it was found.
     notices : why the result is not what was asked for: nothing feasible, or interrupted.
     warnings : what a reader must know before using the result.
+    dem : the elevation model of the formation, and what limits it.
     """
 
     problem: Problem
@@ -33,6 +35,7 @@ class OptimizeResult:
     search: SearchResult
     notices: tuple[str, ...]
     warnings: tuple[str, ...]
+    dem: DemVerdict | None = None
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -46,6 +49,7 @@ class EvaluateResult:
     formation : the formation given.
     compare : other formations, assessed in the same way.
     warnings : what a reader must know before using the result.
+    dem : the elevation model of the formation, and what limits it.
     """
 
     problem: Problem
@@ -53,3 +57,4 @@ class EvaluateResult:
     formation: Assessment
     compare: tuple[Assessment, ...]
     warnings: tuple[str, ...]
+    dem: DemVerdict | None = None

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from configs import EvaluateStudy
 from configs.build import EvaluateSetup
-from optimize import EvaluateResult, assess, findings
+from optimize import EvaluateResult, assess, dem_verdict, findings
 
 from .formation_summary import formation_summary, scene_cautions
 from .outcome import Options, Outcome
@@ -24,6 +24,7 @@ def run(study: EvaluateStudy, setup: EvaluateSetup, options: Options) -> Outcome
         assess(setup.problem, states, label=label, names=names)
         for label, names, states in setup.compare
     )
+    dem = dem_verdict(setup.problem, formation.states, label=formation.label, request=setup.dem)
     cautions = scene_cautions(setup.observation)
     result = EvaluateResult(
         problem=setup.problem,
@@ -31,10 +32,11 @@ def run(study: EvaluateStudy, setup: EvaluateSetup, options: Options) -> Outcome
         formation=formation,
         compare=compare,
         warnings=(*cautions, *findings(setup.problem, formation)),
+        dem=dem,
     )
     return Outcome(
         result=result,
-        summary=formation_summary((*compare, formation), cautions),
+        summary=formation_summary((*compare, formation), cautions, dem=dem),
         evaluations=1 + len(compare),
         orbit=setup.orbit,
         observation=setup.observation,

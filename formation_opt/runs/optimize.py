@@ -6,7 +6,7 @@ import numpy as np
 
 from configs import OptimizeStudy
 from configs.build import OptimizeSetup
-from optimize import Assessment, OptimizeResult, assess, findings, search
+from optimize import Assessment, OptimizeResult, assess, dem_verdict, findings, search
 
 from .formation_summary import formation_summary, scene_cautions
 from .outcome import Options, Outcome
@@ -44,6 +44,7 @@ def run(study: OptimizeStudy, setup: OptimizeSetup, options: Options) -> Outcome
             f"The search was interrupted after {found.evaluations} formations: this is the best so "
             "far, not the best there is.",
         )
+    dem = dem_verdict(setup.problem, best.states, label=best.label, request=setup.dem)
     cautions = scene_cautions(setup.observation)
     result = OptimizeResult(
         problem=setup.problem,
@@ -57,10 +58,11 @@ def run(study: OptimizeStudy, setup: OptimizeSetup, options: Options) -> Outcome
         search=found,
         notices=tuple(notices),
         warnings=(*cautions, *findings(setup.problem, best)),
+        dem=dem,
     )
     return Outcome(
         result=result,
-        summary=formation_summary((initial, best), cautions),
+        summary=formation_summary((initial, best), cautions, dem=dem),
         evaluations=found.evaluations,
         seed=seed,
         orbit=setup.orbit,

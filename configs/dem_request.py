@@ -1,0 +1,96 @@
+"""Builds what is asked of the elevation model, and the looks that its posting gives."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from insar import Calibration, Cell, Scene
+from insar.dem import CLASSES, Resolution
+from insar.swath import across_swath
+from optimize import DemRequest, looks_for
+
+from .blocks import RadarBlock
+from .dem import DemBlock
+from .messages import BuildError, KeyPath
+
+_DEFAULT_SWATH = 30e3
+
+
+def build_dem(
+    block: DemBlock | None, radar: RadarBlock, scene: Scene, calibration: Calibration | None
+) -> DemRequest:
+    """Build what is asked of the elevation model, in SI units.
+
+    Parameters
+    ----------
+    block : of the study; None judges by no class.
+    radar : for its resolution.
+    scene : for the room between it and nadir.
+    calibration : whose swath is that of a scene where the block gives none.
+
+    Raises
+    ------
+    BuildError
+        If the swath reaches nadir or the horizon.
+    """
+    resolution = None
+    if radar.azimuth_resolution_m is not None:
+        resolution = Resolution(
+            slant_range=radar.slant_range_resolution_m, azimuth=radar.azimuth_resolution_m
+        )
+    swath = _swath(block, scene, calibration)
+    if block is None:
+        return DemRequest(resolution=resolution, cell=Cell(swath=swath))
+    return DemRequest(
+        posting=block.posting_m,
+        independence=block.resolution_over_posting,
+        resolution=resolution,
+        cell=Cell(size=1e3 * block.cell_km, swath=swath),
+        specifications=tuple(
+            CLASSES[one] if isinstance(one, str) else one.build() for one in block.specifications
+        ),
+    )
+
+
+def looks_of(radar: RadarBlock, request: DemRequest, scene: Scene) -> float:
+    """Looks of an interferogram: as given, or those of the posting.
+
+    Parameters
+    ----------
+    radar : of the study.
+    request : its elevation model.
+    scene : the scene; of its segments, the one with the fewest looks counts.
+
+    Raises
+    ------
+    BuildError
+        If the posting is finer than the radar resolves.
+    """
+    if request.posting is None or "looks" in radar.model_fields_set:
+        return radar.looks
+    try:
+        return looks_for(request, incidence=scene.incidence, slope=scene.slope)
+    except ValueError as error:
+        raise BuildError(("dem", "posting_m"), f"cannot be used: {error}") from None
+
+
+def _swath(block: DemBlock | None, scene: Scene, calibration: Calibration | None) -> float:
+    at: KeyPath
+    if block is not None and block.swath_km is not None:
+        at, swath = ("dem", "swath_km"), 1e3 * block.swath_km
+    elif calibration is not None:
+        at, swath = ("errors", "calibration", "swath_km"), calibration.swath
+    else:
+        # Nobody says how wide it is: what the usual one leaves room for beside nadir.
+        room = float((scene.slant_range * np.sin(scene.look_angle)).min())
+        return min(_DEFAULT_SWATH, room)
+    try:
+        for side in (-0.5, 0.5):
+            across_swath(scene, side * swath)
+    except ValueError:
+        raise BuildError(
+            at,
+            "is so wide that an edge of the swath lies at nadir, beyond the horizon or in layover; "
+            "take a narrower swath",
+        ) from None
+    return swath

@@ -1,0 +1,163 @@
+"""The items of a formation's budget, each of which can be changed alone."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from insar import Ionosphere
+
+from .problem import Problem
+
+Array = NDArray[np.float64]
+
+
+class BudgetItem(NamedTuple):
+    """One number of the budget, and how to change it alone.
+
+    Attributes
+    ----------
+    name : of the item.
+    unit : of its value; empty for a pure number.
+    value : as it is.
+    changed : problem and states with the item multiplied by a factor; raises ValueError where it
+        can't be.
+    """
+
+    name: str
+    unit: str
+    value: float
+    changed: Callable[[float], tuple[Problem, Array]]
+
+
+def budget_items(problem: Problem, states: ArrayLike) -> tuple[BudgetItem, ...]:
+    """Items of a budget that are not zero, and the scale of the baselines.
+
+    Parameters
+    ----------
+    problem : scene, radar, errors and limits.
+    states : (N, 6) — the formation, RTN at t = 0 [m, m/s].
+    """
+    state = np.asarray(states, dtype=np.float64)
+
+    def of_problem(make: Callable[[float], Problem]) -> Callable[[float], tuple[Problem, Array]]:
+        return lambda factor: (make(factor), state)
+
+    items = [
+        BudgetItem(name, unit, value, of_problem(make))
+        for name, unit, value, make in (
+            *_of_radar(problem),
+            *_of_errors(problem),
+            *_of_calibration(problem),
+        )
+        if value > 0.0
+    ]
+    prior = problem.constraints.prior_height_std
+    if prior is not None:
+        items.append(
+            BudgetItem(
+                "prior_height",
+                "m",
+                prior,
+                of_problem(
+                    lambda f: replace(
+                        problem,
+                        constraints=replace(problem.constraints, prior_height_std=f * prior),
+                    )
+                ),
+            )
+        )
+    items.append(BudgetItem("baselines", "", 1.0, lambda factor: (problem, factor * state)))
+    return tuple(items)
+
+
+_Change = tuple[str, str, float, Callable[[float], Problem]]
+
+
+def _of_radar(problem: Problem) -> list[_Change]:
+    radar = problem.radar
+    return [
+        ("snr", "", radar.snr, lambda f: _with_radar(problem, snr=f * radar.snr)),
+        ("looks", "", radar.looks, lambda f: _with_radar(problem, looks=f * radar.looks)),
+        (
+            "slant_range_resolution",
+            "m",
+            radar.slant_range_resolution,
+            lambda f: _with_radar(problem, slant_range_resolution=f * radar.slant_range_resolution),
+        ),
+    ]
+
+
+def _with_radar(problem: Problem, **changes: float) -> Problem:
+    return replace(problem, radar=replace(problem.radar, **changes))  # type: ignore[arg-type]
+
+
+def _of_errors(problem: Problem) -> list[_Change]:
+    errors = problem.errors
+    units = {
+        "position": "m",
+        "azimuth": "rad",
+        "range": "m",
+        "synchronization": "rad",
+        "troposphere": "m",
+    }
+
+    def scaled(name: str) -> Callable[[float], Problem]:
+        source = getattr(errors, name)
+        return lambda f: _with_errors(problem, **{name: source._replace(std=f * source.std)})
+
+    changes: list[_Change] = [
+        (name, unit, getattr(errors, name).std, scaled(name)) for name, unit in units.items()
+    ]
+    ionosphere = errors.ionosphere
+    if ionosphere is not None:
+        changes.append(
+            (
+                "ionosphere",
+                "1/m2",
+                ionosphere.electrons,
+                lambda f: _with_errors(problem, ionosphere=_thinner(ionosphere, f)),
+            )
+        )
+    return changes
+
+
+def _thinner(ionosphere: Ionosphere, factor: float) -> Ionosphere:
+    return replace(
+        ionosphere,
+        electrons=factor * ionosphere.electrons,
+        gradient=factor * ionosphere.gradient,
+    )
+
+
+def _with_errors(problem: Problem, **changes: object) -> Problem:
+    return replace(problem, errors=replace(problem.errors, **changes))  # type: ignore[arg-type]
+
+
+def _of_calibration(problem: Problem) -> list[_Change]:
+    calibration = problem.errors.calibration
+    if calibration is None:
+        return []
+
+    def scaled(*names: str) -> Callable[[float], Problem]:
+        return lambda f: _with_errors(
+            problem,
+            calibration=replace(
+                calibration, **{name: f * getattr(calibration, name) for name in names}
+            ),
+        )
+
+    return [
+        (
+            "calibration_spacing",
+            "m",
+            calibration.spacing_across,
+            scaled("spacing_across", "spacing_along"),
+        ),
+        ("calibration_accuracy", "m", calibration.accuracy, scaled("accuracy")),
+        ("calibration_bias", "m", calibration.bias, scaled("bias")),
+    ]
