@@ -6,8 +6,6 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import Discriminator, Field, Tag, model_validator
 
-from insar.dem import Specification
-
 from .base import Block, Label, Number, wrong
 from .blocks import RadarBlock
 
@@ -49,18 +47,6 @@ class SpecificationBlock(Block):
                 "add relative_90_m",
             )
         return self
-
-    def build(self) -> Specification:
-        """The class, in SI units."""
-        return Specification(
-            name=self.name,
-            posting=self.posting_m,
-            relative_90=self.relative_90_m,
-            relative_90_steep=self.relative_90_steep_m,
-            absolute_90=self.absolute_90_m,
-            steep=self.steep_slope_percent / 100.0,
-            source="the study",
-        )
 
 
 def _form(value: Any) -> str:

@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 
 from insar import Calibration, Cell, Scene
-from insar.dem import CLASSES, Resolution
+from insar.dem import CLASSES, Resolution, Specification
 from insar.swath import across_swath
 from optimize import DemRequest, looks_for
 
 from .blocks import RadarBlock
-from .dem import DemBlock
+from .dem import DemBlock, SpecificationBlock
 from .messages import BuildError, KeyPath
 
 _DEFAULT_SWATH = 30e3
@@ -47,7 +47,8 @@ def build_dem(
         resolution=resolution,
         cell=Cell(size=1e3 * block.cell_km, swath=swath),
         specifications=tuple(
-            CLASSES[one] if isinstance(one, str) else one.build() for one in block.specifications
+            CLASSES[one] if isinstance(one, str) else _specification(one)
+            for one in block.specifications
         ),
     )
 
@@ -72,6 +73,18 @@ def looks_of(radar: RadarBlock, request: DemRequest, scene: Scene) -> float:
         return looks_for(request, incidence=scene.incidence, slope=scene.slope)
     except ValueError as error:
         raise BuildError(("dem", "posting_m"), f"cannot be used: {error}") from None
+
+
+def _specification(block: SpecificationBlock) -> Specification:
+    return Specification(
+        name=block.name,
+        posting=block.posting_m,
+        relative_90=block.relative_90_m,
+        relative_90_steep=block.relative_90_steep_m,
+        absolute_90=block.absolute_90_m,
+        steep=block.steep_slope_percent / 100.0,
+        source="the study",
+    )
 
 
 def _swath(block: DemBlock | None, scene: Scene, calibration: Calibration | None) -> float:
