@@ -18,9 +18,16 @@ from formation import (
 )
 from insar.observe import Observation
 from insar.observe.agile.staring import StaringScene
-from optimize import DemRequest, DesignSpace, GeneticSettings, Problem, SearchSettings
+from optimize import (
+    DemRequest,
+    DesignSpace,
+    GeneticSettings,
+    Problem,
+    RefutationSettings,
+    SearchSettings,
+)
 
-from .domain import build_problem
+from .domain import build_problem, build_refutation
 from .formations import ComparedFormation, Family, RadialStart, Satellite, Sign
 from .limits import SearchBlock
 from .observing import build_view
@@ -75,6 +82,7 @@ class OptimizeSetup(NamedTuple):
         allowed orbit.
     initial_design : (D,) — the formation given, if it lies in the searched box; else None.
     compare : formations to show beside the result.
+    refutation : how they are simulated; None if they are not.
     critical_baseline : the smallest over the segments [m].
     dem : what is asked of the elevation model.
     orbit : the reference orbit.
@@ -87,6 +95,7 @@ class OptimizeSetup(NamedTuple):
     initial_states: Array
     initial_design: Array | None
     compare: tuple[NamedStates, ...]
+    refutation: RefutationSettings | None
     critical_baseline: float
     dem: DemRequest
     orbit: Orbit
@@ -102,6 +111,7 @@ class EvaluateSetup(NamedTuple):
     names : name of each satellite.
     states : (N, 6) — the formation, RTN at t = 0 [m, m/s].
     compare : formations to show beside it.
+    refutation : how they are simulated; None if they are not.
     critical_baseline : the smallest over the segments [m].
     dem : what is asked of the elevation model.
     orbit : the reference orbit.
@@ -112,6 +122,7 @@ class EvaluateSetup(NamedTuple):
     names: tuple[str, ...]
     states: Array
     compare: tuple[NamedStates, ...]
+    refutation: RefutationSettings | None
     critical_baseline: float
     dem: DemRequest
     orbit: Orbit
@@ -161,6 +172,7 @@ def build_optimize(study: OptimizeStudy) -> OptimizeSetup:
         initial_states=space.states(initial),
         initial_design=design,
         compare=_compare(study.compare, names, n, family=formation.family, sign=sign),
+        refutation=build_refutation(study, problem),
         critical_baseline=critical,
         dem=dem,
         orbit=view.orbit,
@@ -189,6 +201,7 @@ def build_evaluate(study: EvaluateStudy) -> EvaluateSetup:
         names=names,
         states=_states(formation.satellites, names, n, family=family, sign=sign),
         compare=_compare(study.compare, names, n, family=family, sign=sign),
+        refutation=build_refutation(study, problem),
         critical_baseline=critical,
         dem=dem,
         orbit=view.orbit,

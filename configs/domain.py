@@ -26,7 +26,7 @@ from insar import (
     scene_critical_baseline,
 )
 from insar.atmosphere import TEC_UNIT
-from optimize import Constraints, DemRequest, Problem
+from optimize import Constraints, DemRequest, Problem, RefutationSettings
 
 from .blocks import ErrorsBlock, RadarBlock
 from .dem_request import build_dem, looks_of
@@ -34,6 +34,9 @@ from .limits import LimitsBlock
 from .observing import View
 from .studies import FormationStudy
 from .systematic import CalibrationBlock, IonosphereBlock
+
+_PRIOR_HEIGHT_STD = 4.0
+"""Standard deviation of an existing DEM, where a study names none [m]."""
 
 
 def build_problem(
@@ -72,6 +75,26 @@ def build_problem(
         constraints=_constraints(limits, critical),
     )
     return problem, critical, dem
+
+
+def build_refutation(study: FormationStudy, problem: Problem) -> RefutationSettings | None:
+    """How the formations of a study are simulated; None if they are not.
+
+    Parameters
+    ----------
+    study : the study.
+    problem : what was built from it.
+    """
+    block = study.refutation
+    if block is None:
+        return None
+    prior = block.prior_height_std_m
+    if prior is None:
+        prior = problem.constraints.prior_height_std
+    return RefutationSettings(
+        samples=block.samples,
+        prior_height_std=_PRIOR_HEIGHT_STD if prior is None else prior,
+    )
 
 
 def _radar(block: RadarBlock, names: Sequence[str], *, looks: float) -> Radar:

@@ -30,6 +30,7 @@ from .formations import ComparedFormation, EvaluatedFormation, SearchedFormation
 from .limits import LimitsBlock, SearchBlock, SearchLimitsBlock
 from .observation import SideName
 from .orbits import OrbitBlock, build_reference
+from .refutation import RefutationBlock
 from .scenes import SceneBlock
 from .steering import (
     LAWS,
@@ -60,6 +61,10 @@ class FormationStudy(Study):
         default=(),
         max_length=20,
         description="Formations evaluated and shown beside the result; they may break limits.",
+    )
+    refutation: RefutationBlock | None = Field(
+        default=RefutationBlock(),
+        description="Simulation that tries to refute the predicted errors; null: none.",
     )
 
     @property

@@ -7,6 +7,7 @@ from .design_space import DesignSpace, DesignVariables
 from .findings import findings
 from .genetic import GeneticSettings
 from .problem import Evaluation, Problem
+from .refuting import RefutationSettings, refuted
 from .result import EvaluateResult, OptimizeResult
 from .search import GenerationRecord, SearchResult, SearchSettings, search
 from .structured import structured_designs
@@ -30,6 +31,7 @@ __all__ = [
     "Limit",
     "OptimizeResult",
     "Problem",
+    "RefutationSettings",
     "Rung",
     "SearchResult",
     "SearchSettings",
@@ -38,6 +40,7 @@ __all__ = [
     "dem_verdict",
     "findings",
     "looks_for",
+    "refuted",
     "search",
     "structured_designs",
 ]

@@ -17,6 +17,7 @@ from insar import (
     pair_geometry,
     unwrapping_ladder,
 )
+from insar.simulation import Refutation
 from insar.unwrapping import bootstrap_failure
 
 from .constraints import ConstraintReport
@@ -100,6 +101,7 @@ class Assessment:
         `formation.satellite_pairs` [m].
     unwrapping : None without a prior height.
     constraints : how it stands to each limit.
+    refutation : what a simulation says of its height error; None where there was none.
     """
 
     label: str
@@ -112,6 +114,7 @@ class Assessment:
     separations: Array
     unwrapping: Unwrapping | None
     constraints: tuple[ConstraintReport, ...]
+    refutation: Refutation | None = None
 
     @property
     def feasible(self) -> bool:

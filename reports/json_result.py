@@ -11,6 +11,7 @@ from optimize import Assessment, EvaluateResult, ImagePair, OptimizeResult, Prob
 
 from .json_numbers import Json, finite, finite_list
 from .json_observation import observation_json
+from .json_refutation import refutation_json
 from .reading import image_name, pair_satellites, unmeasured_reason
 from .study import Provenance, StudyInfo
 
@@ -179,6 +180,7 @@ def assessment_json(problem: Problem, assessment: Assessment) -> Json:
             }
             for report in assessment.constraints
         ],
+        "refutation": refutation_json(assessment.refutation),
         "feasible": assessment.feasible,
     }
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from configs import EvaluateStudy
 from configs.build import EvaluateSetup
-from optimize import EvaluateResult, assess, dem_verdict, findings
+from optimize import EvaluateResult, assess, dem_verdict, findings, refuted
 
-from .formation_summary import formation_summary, scene_cautions
+from .formation_summary import formation_summary, refutation_seed, scene_cautions
 from .outcome import Options, Outcome
 
 
@@ -17,12 +17,21 @@ def run(study: EvaluateStudy, setup: EvaluateSetup, options: Options) -> Outcome
     ----------
     study : the validated study.
     setup : what it is computed with.
-    options : of the command line; nothing here is random.
+    options : of the command line.
     """
     formation = assess(setup.problem, setup.states, label="formation", names=setup.names)
-    compare = tuple(
-        assess(setup.problem, states, label=label, names=names)
-        for label, names, states in setup.compare
+    seed = refutation_seed(study, options, 1)
+    formation, *compare = refuted(
+        setup.problem,
+        [
+            formation,
+            *(
+                assess(setup.problem, states, label=label, names=names)
+                for label, names, states in setup.compare
+            ),
+        ],
+        settings=setup.refutation,
+        seed=seed,
     )
     dem = dem_verdict(setup.problem, formation.states, label=formation.label, request=setup.dem)
     cautions = scene_cautions(setup.observation)
@@ -30,7 +39,7 @@ def run(study: EvaluateStudy, setup: EvaluateSetup, options: Options) -> Outcome
         problem=setup.problem,
         critical_baseline=setup.critical_baseline,
         formation=formation,
-        compare=compare,
+        compare=tuple(compare),
         warnings=(*cautions, *findings(setup.problem, formation)),
         dem=dem,
     )
@@ -38,6 +47,7 @@ def run(study: EvaluateStudy, setup: EvaluateSetup, options: Options) -> Outcome
         result=result,
         summary=formation_summary((*compare, formation), cautions, dem=dem),
         evaluations=1 + len(compare),
+        seed=None if setup.refutation is None else seed,
         orbit=setup.orbit,
         observation=setup.observation,
     )

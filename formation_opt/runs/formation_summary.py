@@ -6,13 +6,22 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from configs import EvaluateStudy, OptimizeStudy
 from insar.dem import Judgment
 from insar.observe import Observation
 from insar.observe.agile.staring import StaringScene
 from insar.observe.scenes.cautions import cautions, orbit_cautions
+from insar.simulation import Refutation, Verdict
 from optimize import Assessment, DemVerdict
 
-from .outcome import Summary
+from .outcome import Options, Summary
+
+_VERDICTS = {
+    Verdict.AGREES: "agrees",
+    Verdict.DISAGREES: "disagrees",
+    Verdict.OFTEN_WRONG: "cycles often wrong",
+    Verdict.MEASURES_NOTHING: "measures nothing",
+}
 
 
 def formation_summary(
@@ -44,6 +53,10 @@ def formation_summary(
         rows.append(
             ("unwrapping probability", tuple(f"{u.probability.min():.4f}" for u in unwrapping))
         )
+    refutations = [a.refutation for a in shown if a.refutation is not None]
+    if len(refutations) == len(shown):
+        rows += _simulated(refutations)
+        warnings = (*warnings, *_useless(shown[-1].label, refutations[-1]))
     rows.append(("limits", tuple(_limits(a) for a in shown)))
     if dem is not None and dem.judgments:
         elsewhere = ("",) * (len(shown) - 1)
@@ -52,6 +65,42 @@ def formation_summary(
             for judgment in dem.judgments
         ]
     return Summary(tuple(a.label for a in shown), tuple(rows), warnings)
+
+
+def refutation_seed(study: OptimizeStudy | EvaluateStudy, options: Options, otherwise: int) -> int:
+    """Seed of the simulation: of the command line, of its block, or that of the search.
+
+    Parameters
+    ----------
+    study : the study.
+    options : of the command line.
+    otherwise : where neither names one.
+    """
+    if options.seed is not None:
+        return options.seed
+    own = None if study.refutation is None else study.refutation.seed
+    return otherwise if own is None else own
+
+
+def _simulated(refutations: Sequence[Refutation]) -> list[tuple[str, tuple[str, ...]]]:
+    """What a simulation found in the worst segment of each formation."""
+    worst = [refutation.segments[0] for refutation in refutations]
+    return [
+        ("  simulated, right cycles", tuple(meters(s.right_cycles.value) for s in worst)),
+        ("  simulated wrong cycles", tuple(_share(s.wrong.value) for s in worst)),
+        ("  gained over the prior", tuple(f"{s.bits:.1f} bits" for s in worst)),
+        ("simulation", tuple(_VERDICTS[refutation.verdict] for refutation in refutations)),
+    ]
+
+
+def _useless(label: str, refutation: Refutation) -> tuple[str, ...]:
+    if refutation.verdict is not Verdict.MEASURES_NOTHING:
+        return ()
+    worst = max(refutation.segments, key=lambda s: s.best.value)
+    return (
+        f"the {label} formation measures nothing: simulated heights are wrong by "
+        f"{meters(worst.best.value)}, the prior was by {meters(worst.prior_height_std)}.",
+    )
 
 
 def scene_cautions(observation: Observation | StaringScene | None) -> tuple[str, ...]:
@@ -82,3 +131,7 @@ def _limits(assessment: Assessment) -> str:
     if broken:
         return f"{broken} of {len(assessment.constraints)} broken"
     return "all kept" if assessment.constraints else "none set"
+
+
+def _share(value: float) -> str:
+    return f"{100.0 * value:.{1 if value < 0.1 else 0}f} %"

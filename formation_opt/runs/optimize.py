@@ -6,9 +6,17 @@ import numpy as np
 
 from configs import OptimizeStudy
 from configs.build import OptimizeSetup
-from optimize import Assessment, OptimizeResult, assess, dem_verdict, findings, search
+from optimize import (
+    Assessment,
+    OptimizeResult,
+    assess,
+    dem_verdict,
+    findings,
+    refuted,
+    search,
+)
 
-from .formation_summary import formation_summary, scene_cautions
+from .formation_summary import formation_summary, refutation_seed, scene_cautions
 from .outcome import Options, Outcome
 
 
@@ -35,6 +43,16 @@ def run(study: OptimizeStudy, setup: OptimizeSetup, options: Options) -> Outcome
     names = setup.space.names
     initial = assess(setup.problem, setup.initial_states, label="initial", names=names)
     best = assess(setup.problem, setup.space.states(found.design), label="best", names=names)
+    compare = [
+        assess(setup.problem, states, label=label, names=members)
+        for label, members, states in setup.compare
+    ]
+    best, initial, *compare = refuted(
+        setup.problem,
+        [best, initial, *compare],
+        settings=setup.refutation,
+        seed=refutation_seed(study, options, seed),
+    )
     notices = []
     blocked = None if best.feasible else _blocking(best)
     if blocked is not None:
@@ -51,10 +69,7 @@ def run(study: OptimizeStudy, setup: OptimizeSetup, options: Options) -> Outcome
         critical_baseline=setup.critical_baseline,
         initial=initial,
         best=best,
-        compare=tuple(
-            assess(setup.problem, states, label=label, names=members)
-            for label, members, states in setup.compare
-        ),
+        compare=tuple(compare),
         search=found,
         notices=tuple(notices),
         warnings=(*cautions, *findings(setup.problem, best)),

@@ -18,6 +18,7 @@ from .closing import closing_sections, formation_setting
 from .interferometry import pairs_section, unwrapping_section
 from .methods import methods_section
 from .observation import observation_section, unseen
+from .refutation import refutation_section
 from .verdict import evaluate_verdict
 
 
@@ -41,6 +42,7 @@ def document(result: EvaluateResult, study: StudyInfo, provenance: Provenance) -
         sections.height_error_section(problem, [formation, *others]),
         pairs_section(problem, result.critical_baseline, [result.formation]),
         unwrapping_section(problem, [formation, *others], ladder=result.formation),
+        refutation_section(problem, result.formation, result.compare),
         sections.attribution_section([formation]),
         sections.constraints_section([result.formation]),
         sections.comparison_section(result.formation, result.compare),

@@ -21,6 +21,7 @@ from .closing import closing_sections, formation_setting
 from .interferometry import pairs_section, unwrapping_section
 from .methods import methods_section
 from .observation import observation_section, unseen
+from .refutation import refutation_section
 from .verdict import optimize_verdict
 
 _INITIAL_STYLE, _BEST_STYLE = 7, 0
@@ -48,6 +49,7 @@ def document(result: OptimizeResult, study: StudyInfo, provenance: Provenance) -
         _convergence_section(result),
         pairs_section(problem, result.critical_baseline, [result.best, result.initial]),
         unwrapping_section(problem, [initial, best, *others], ladder=result.best),
+        refutation_section(problem, result.best, (result.initial, *result.compare)),
         sections.attribution_section([initial, best]),
         sections.constraints_section([result.best, result.initial]),
         sections.comparison_section(result.best, result.compare),

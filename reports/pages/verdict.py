@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from insar.simulation import Verdict
 from optimize import Assessment, EvaluateResult, OptimizeResult, Problem
 
 from ..document import Block, Callout, Metric, Metrics, Status, Strong, Text
@@ -16,6 +17,7 @@ from ..reading import (
     shares,
     unmeasured_reason,
 )
+from ..refutation_words import VERDICTS, bits, finding, worst_of
 from ..wording import (
     counted,
     formation_name,
@@ -28,6 +30,7 @@ from ..wording import (
     source_name,
 )
 from .limits import shortfall_text
+from .refutation import STATUS
 
 _DOUBTFUL_PROBABILITY = 0.9
 """Probability of unwrapping below which a verdict without a limit on it is a warning."""
@@ -63,6 +66,7 @@ def optimize_verdict(result: OptimizeResult, unseen: int = 0) -> tuple[Block, ..
     doubtful = result.search.interrupted or unseen > 0 or _doubtful(result.problem, best)
     if status is Status.GOOD and doubtful:
         status = Status.WARNING
+    status, title = _unless_refuted(best, status, title)
     return Callout(status, title, tuple(paragraphs)), _metrics(result.problem, best, unseen)
 
 
@@ -85,7 +89,29 @@ def evaluate_verdict(result: EvaluateResult, unseen: int = 0) -> tuple[Block, ..
     paragraphs += _remarks(result.problem, formation)
     if status is Status.GOOD and (unseen > 0 or _doubtful(result.problem, formation)):
         status = Status.WARNING
+    status, title = _unless_refuted(formation, status, title)
     return Callout(status, title, tuple(paragraphs)), _metrics(result.problem, formation, unseen)
+
+
+def _unless_refuted(formation: Assessment, status: Status, title: str) -> tuple[Status, str]:
+    """Status and title, if the simulation leaves anything of them."""
+    refutation = formation.refutation
+    if refutation is None or not measured(formation):
+        return status, title
+    if refutation.verdict is Verdict.MEASURES_NOTHING:
+        error = meters(float(formation.height_error.region))
+        return Status.BAD, f"Measures nothing, although {error} is predicted"
+    if status is Status.GOOD and refutation.verdict is not Verdict.AGREES:
+        return Status.WARNING, title
+    return status, title
+
+
+def _refutation(formation: Assessment) -> list[Text]:
+    """What the simulation found, in the segment that says most."""
+    if formation.refutation is None:
+        return []
+    verdict, segment = formation.refutation.verdict, worst_of(formation.refutation.segments)
+    return [(Strong(f"Simulation: {VERDICTS[verdict]}. "), finding(segment))]
 
 
 def _title(formation: Assessment, unseen: int) -> str:
@@ -141,6 +167,7 @@ def _remarks(problem: Problem, formation: Assessment) -> list[Text]:
     else:
         remarks.append(_limited_by(formation))
         remarks.append(_unwrapping(problem, formation))
+        remarks += _refutation(formation)
     remarks += [
         (
             Strong(f"Broken: {report.limit.name}. "),
@@ -235,6 +262,14 @@ def _metrics(problem: Problem, formation: Assessment, unseen: int) -> Metrics:
         if required is not None:
             remark += f", at least {required:.6g}"
         items.append(Metric("Unwrapping", probability(value), remark))
+    if formation.refutation is not None:
+        verdict = formation.refutation.verdict
+        gained = bits(worst_of(formation.refutation.segments).bits)
+        items.append(
+            Metric(
+                "Simulation", VERDICTS[verdict], f"gains {gained} over the prior", STATUS[verdict]
+            )
+        )
     separation = float(formation.separations.min()) if formation.separations.size else math.nan
     if math.isfinite(separation):
         items.append(Metric("Closest approach", meters(separation), "any two, at any time"))
