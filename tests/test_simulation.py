@@ -123,7 +123,7 @@ def test_linked_phases_beat_every_phase_of_a_grid():
 
 
 def test_linked_phases_reach_the_bound_at_many_looks():
-    """An independent draw against `fisher_information`: 0.5 % of the phase variance at 400 looks."""
+    """400 looks of three images against the Fisher information, 20 000 samples: 4 %."""
     rng = np.random.default_rng(8)
     gamma = np.full((3, 3), 0.7) + 0.3 * np.eye(3) + 0j
     data = link_matrices(Speckle(gamma, (Cell(1.0, np.arange(3)),), 400.0), samples=20_000, rng=rng)
@@ -336,9 +336,9 @@ def test_many_images_are_drawn_less_often():
         rng=np.random.default_rng(1),
     )
     assert 200 <= result.samples < 1000
-    total = height_error(
-        formation([0, 100, 250, 500]), STRIP, radar=radar, errors=REALISTIC
-    ).total[0]
+    total = height_error(formation([0, 100, 250, 500]), STRIP, radar=radar, errors=REALISTIC).total[
+        0
+    ]
     assert result.segments[0].right_cycles.value == pytest.approx(total, rel=0.2)
 
 
