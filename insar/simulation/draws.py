@@ -79,11 +79,8 @@ def _draw_chunk(
     scene_wide = rng.standard_normal((draws, nature.scene_factor.shape[-1])) @ nature.scene_factor.T
     own = rng.standard_normal((samples, nature.pixel_factor.shape[-1])) @ nature.pixel_factor.T
     shared = np.repeat(scene_wide, pixels, axis=0) + own
-    along_range = nature.range_height_std * (
-        np.repeat(rng.standard_normal(draws), pixels)
-        if nature.range_scale is Scale.SCENE
-        else rng.standard_normal(samples)
-    )
+    moved = nature.scene_height_std * np.repeat(rng.standard_normal(draws), pixels)
+    moved += nature.pixel_height_std * rng.standard_normal(samples)
     data = link_matrices(nature.speckle, samples=samples, rng=rng)
     linked = linked_phases(data, rng=rng)
 
@@ -105,7 +102,7 @@ def _draw_chunk(
         likely.most_likely - height,
         likely.mean - height,
     )
-    right, unwrapped, most_likely, mean = ((error - along_range).reshape(shape) for error in errors)
+    right, unwrapped, most_likely, mean = ((error + moved).reshape(shape) for error in errors)
     return Draw(
         right, unwrapped, found.right.reshape(shape), most_likely, mean, height.reshape(shape)
     )

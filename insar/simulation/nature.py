@@ -56,8 +56,8 @@ class Nature:
     scene_factor : (M, R) — what unit errors that stay the same over the scene, or longer, do to the
         phases, relative to the first image [rad].
     pixel_factor : (M, R) — likewise of errors that are drawn anew for each pixel [rad].
-    scene_height_std : scalar — of errors that move the height and no phase (slant range, atmosphere)
-        and stay the same over the scene, or longer [m].
+    scene_height_std : scalar — of errors that move the height and no phase (slant range,
+        atmosphere) and stay the same over the scene, or longer [m].
     pixel_height_std : scalar — of those that are drawn anew for each pixel [m].
     information : (M, M) — by which the estimators weigh the phases; nothing is drawn from it
         [1/rad²].
