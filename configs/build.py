@@ -21,16 +21,22 @@ from insar.observe.agile.staring import StaringScene
 from optimize import (
     DemRequest,
     DesignSpace,
+    FormationClaim,
     GeneticSettings,
+    OpenNumber,
     Problem,
     RefutationSettings,
     SearchSettings,
 )
 
+from .base import Block
 from .domain import build_problem, build_refutation
-from .formations import ComparedFormation, Family, RadialStart, Satellite, Sign
+from .formations import ComparedFormation, EvaluatedFormation, Family, RadialStart, Satellite, Sign
 from .limits import SearchBlock
-from .observing import build_view
+from .messages import KeyPath
+from .mission_claims import corners, with_value
+from .observing import View, build_view
+from .placing import NamedPositions, build_claims, build_positions
 from .steered import SteeringSetup, build_steering
 from .studies import EvaluateStudy, OptimizeStudy
 
@@ -109,24 +115,30 @@ class EvaluateSetup(NamedTuple):
     ----------
     problem : scene, radar, errors and limits.
     names : name of each satellite.
-    states : (N, 6) — the formation, RTN at t = 0 [m, m/s].
+    formation : its states; or positions, in one acquisition or several.
     compare : formations to show beside it.
     refutation : how they are simulated; None if they are not.
     critical_baseline : the smallest over the segments [m].
     dem : what is asked of the elevation model.
     orbit : the reference orbit.
     observation : where the scene comes from; None if the study gives it.
+    claims : printed figures; may be empty.
+    opened : what the source of the claims does not publish.
+    corners : the same setup at every combination of the ends of what is open.
     """
 
     problem: Problem
     names: tuple[str, ...]
-    states: Array
-    compare: tuple[NamedStates, ...]
+    formation: NamedStates | tuple[NamedPositions, ...]
+    compare: tuple[NamedStates | NamedPositions, ...]
     refutation: RefutationSettings | None
     critical_baseline: float
     dem: DemRequest
     orbit: Orbit
     observation: Observation | StaringScene | None
+    claims: tuple[FormationClaim, ...] = ()
+    opened: tuple[OpenNumber, ...] = ()
+    corners: tuple[EvaluateSetup, ...] = ()
 
 
 def build_optimize(study: OptimizeStudy) -> OptimizeSetup:
@@ -171,7 +183,7 @@ def build_optimize(study: OptimizeStudy) -> OptimizeSetup:
         settings=_settings(study.search),
         initial_states=space.states(initial),
         initial_design=design,
-        compare=_compare(study.compare, names, n, family=formation.family, sign=sign),
+        compare=_flown(study.compare, names, problem, family=formation.family, sign=sign),
         refutation=build_refutation(study, problem),
         critical_baseline=critical,
         dem=dem,
@@ -192,15 +204,28 @@ def build_evaluate(study: EvaluateStudy) -> EvaluateSetup:
     BuildError
         If its targets are never seen, or a file that it names does not serve.
     """
-    names, formation = study.formation.names, study.formation
     view = build_view(study)
+    setup = _build_evaluate(study, view)
+    others = []
+    for values in corners(study.open):
+        other: Block = study
+        for one, value in zip(study.open, values, strict=True):
+            other = with_value(other, one.path, value)
+        if isinstance(other, EvaluateStudy):
+            others.append(_build_evaluate(other, view))
+    opened = tuple(OpenNumber(one.key, one.least, one.most, one.why) for one in study.open)
+    return setup._replace(claims=build_claims(study.claims), opened=opened, corners=tuple(others))
+
+
+def _build_evaluate(study: EvaluateStudy, view: View) -> EvaluateSetup:
+    names, formation = study.formation.names, study.formation
     problem, critical, dem = build_problem(study, names, study.constraints, view)
-    n, family, sign = problem.mean_motion, formation.family, formation.cross_track_sign
+    family, sign = formation.family, formation.cross_track_sign
     return EvaluateSetup(
         problem=problem,
         names=names,
-        states=_states(formation.satellites, names, n, family=family, sign=sign),
-        compare=_compare(study.compare, names, n, family=family, sign=sign),
+        formation=_evaluated(formation, names, problem),
+        compare=_compare(study.compare, names, problem, family=family, sign=sign),
         refutation=build_refutation(study, problem),
         critical_baseline=critical,
         dem=dem,
@@ -209,29 +234,75 @@ def build_evaluate(study: EvaluateStudy) -> EvaluateSetup:
     )
 
 
+def _evaluated(
+    formation: EvaluatedFormation, names: tuple[str, ...], problem: Problem
+) -> NamedStates | tuple[NamedPositions, ...]:
+    """The formation of a study of kind `evaluate`."""
+    at: KeyPath = ("formation",)
+    if formation.acquisitions is not None:
+        return tuple(
+            NamedPositions(
+                one.label,
+                names,
+                build_positions(one.table, names, problem, (*at, "acquisitions", index, "table")),
+            )
+            for index, one in enumerate(formation.acquisitions)
+        )
+    if formation.table is not None:
+        positions = build_positions(formation.table, names, problem, (*at, "table"))
+        return (NamedPositions("formation", names, positions),)
+    states = _states(
+        formation.satellites or (),
+        names,
+        problem.mean_motion,
+        family=formation.family,
+        sign=formation.cross_track_sign,
+    )
+    return NamedStates("formation", names, states)
+
+
 def _compare(
     formations: Sequence[ComparedFormation],
     names: tuple[str, ...],
-    mean_motion: float,
+    problem: Problem,
     *,
     family: Family,
     sign: Sign,
-) -> tuple[NamedStates, ...]:
+) -> tuple[NamedStates | NamedPositions, ...]:
     """Formations to compare with; family and sign are the study's, for those that give none."""
     return tuple(
         NamedStates(
             formation.label,
             names,
             _states(
-                formation.satellites,
+                formation.satellites or (),
                 names,
-                mean_motion,
+                problem.mean_motion,
                 family=formation.family or family,
                 sign=formation.cross_track_sign or sign,
             ),
         )
-        for formation in formations
+        if formation.table is None
+        else NamedPositions(
+            formation.label,
+            names,
+            build_positions(formation.table, names, problem, ("compare", index, "table")),
+        )
+        for index, formation in enumerate(formations)
     )
+
+
+def _flown(
+    formations: Sequence[ComparedFormation],
+    names: tuple[str, ...],
+    problem: Problem,
+    *,
+    family: Family,
+    sign: Sign,
+) -> tuple[NamedStates, ...]:
+    """The same where all are on orbits."""
+    found = _compare(formations, names, problem, family=family, sign=sign)
+    return tuple(one for one in found if isinstance(one, NamedStates))
 
 
 def _states(

@@ -18,6 +18,7 @@ from .messages import KeyPath, did_you_mean, show
 from .observation import ObservationBlock
 from .orbits import OrbitBlock, build_trajectory
 from .scenes import SceneBlock, StripBlock, TableBlock, check_slope
+from .tables import PlacedSatellite
 
 RESULT_LABELS = ("initial", "best", "formation")
 """Labels that reports give to the formations of the study itself."""
@@ -168,7 +169,7 @@ def check_known(name: str, names: Sequence[str], at: KeyPath) -> None:
 
 
 def check_members(
-    members: Sequence[RadialStart | Satellite], names: Sequence[str], at: KeyPath
+    members: Sequence[RadialStart | Satellite | PlacedSatellite], names: Sequence[str], at: KeyPath
 ) -> None:
     """The members of a formation are the satellites of the study, named or in its order."""
     if len(members) != len(names):

@@ -7,9 +7,10 @@ from typing import Annotated, Literal, NamedTuple, Self
 
 from pydantic import Field, model_validator
 
-from .base import Block, Label, Number, Prose, wrong
+from .base import Label, Number, wrong
 from .messages import show
 from .observation import LawName
+from .printed import PrintedBlock
 
 QuantityName = Literal[
     "largest_yaw",
@@ -67,29 +68,15 @@ MEANINGS: dict[QuantityName, Meaning] = {
 """What each quantity of a claim means."""
 
 
-class ClaimBlock(Block):
-    """A printed figure, and what it is compared with."""
+class ClaimBlock(PrintedBlock):
+    """A printed figure of steering, and what it is compared with."""
 
-    text: Label = Field(description="What is claimed, in words.")
-    printed: Label = Field(description="How the source prints it, with its unit.")
     quantity: QuantityName = Field(
         description="What is computed: largest_yaw, _pitch, _roll and _angle in degrees, "
         "largest_residual_doppler and _swath_doppler in Hz (of the law none: the unsteered "
         "Doppler), slew_time in minutes, "
         "slew_ratio and rate_ratio, crossover_altitude in km, ellipsoid_effect and deviation_slope "
         "(per unit of eccentricity) in m/s of range rate, compensation in percent."
-    )
-    value: Number = Field(
-        ge=0, le=1e6, description="The printed number, in the unit of the quantity."
-    )
-    relation: Literal["equals", "at_most", "at_least"] = Field(
-        default="equals", description="How what is computed must compare with the value."
-    )
-    tolerance: Number = Field(
-        default=0.0,
-        ge=0,
-        le=1e6,
-        description="In the unit of the quantity; half of the last printed digit, at least.",
     )
     case: Label | None = Field(default=None, description="Name of the case that is meant.")
     law: LawName | None = Field(default=None, description="The law that is meant.")
@@ -116,7 +103,6 @@ class ClaimBlock(Block):
         description="Of a compensation under an effect: which argument of perigee; the worst of "
         "all if absent.",
     )
-    note: Prose = Field(default="", description="Why it holds or not, in words.")
 
     @property
     def meaning(self) -> Meaning:

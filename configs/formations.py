@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Annotated, Any, Literal, Self
 
 from pydantic import Discriminator, Field, Tag, model_validator
 
 from .base import Block, Label, Name, Number, Whole, wrong
+from .tables import MAX_SATELLITES, Acquisitions, Placed, PlacedSatellite
 
 Family = Literal["ground_track_circular", "space_circular"]
 Sign = Literal["positive", "negative"]
-MAX_SATELLITES = 20
 
 Offset = Annotated[Number, Field(ge=-20_000, le=20_000)]
 Rate = Annotated[Number, Field(ge=-30, le=30)]
@@ -96,12 +97,39 @@ class EvaluatedFormation(Block):
         default="positive",
         description="Sign of the orbit-normal motion against the radial one, in the family.",
     )
-    satellites: Satellites = Field(description="The satellites at t = 0.")
+    satellites: Satellites | None = Field(
+        default=None, description="The satellites at t = 0, on orbits; or give table."
+    )
+    table: Placed | None = Field(
+        default=None,
+        description="The satellites by positions or baselines in the scene's segments, on whatever "
+        "orbits; the first is the one that baselines start from.",
+    )
+    acquisitions: Acquisitions | None = Field(
+        default=None,
+        description="Several acquisitions of the scene, each with a table of its own; their errors "
+        "are independent, and they are assessed apart and combined.",
+    )
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        shapes = ("satellites", "table", "acquisitions")
+        _one_of(self, shapes)
+        if self.satellites is None:
+            _no_orbits(self, ("family", "cross_track_sign"))
+        return self
+
+    @property
+    def members(self) -> Sequence[Satellite | PlacedSatellite]:
+        """The satellites; of several acquisitions, those of the first."""
+        if self.acquisitions is not None:
+            return self.acquisitions[0].table
+        return self.satellites or self.table or ()
 
     @property
     def names(self) -> tuple[str, ...]:
         """Name of each satellite."""
-        return tuple(s.name or f"S{i}" for i, s in enumerate(self.satellites, start=1))
+        return tuple(s.name or f"S{i}" for i, s in enumerate(self.members, start=1))
 
 
 class ComparedFormation(Block):
@@ -116,7 +144,41 @@ class ComparedFormation(Block):
         description="Sign of the orbit-normal motion against the radial one; that of the study "
         "(positive for either) if absent.",
     )
-    satellites: Satellites = Field(description="The satellites at t = 0.")
+    satellites: Satellites | None = Field(
+        default=None, description="The satellites at t = 0, on orbits; or give table."
+    )
+    table: Placed | None = Field(
+        default=None,
+        description="The satellites by positions or baselines in the scene's segments.",
+    )
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        _one_of(self, ("satellites", "table"))
+        if self.satellites is None:
+            _no_orbits(self, ("family", "cross_track_sign"))
+        return self
+
+
+def _one_of(block: Block, keys: tuple[str, ...]) -> None:
+    given = [key for key in keys if getattr(block, key) is not None]
+    if len(given) != 1:
+        raise wrong(
+            (),
+            f"needs exactly one of {', '.join(keys[:-1])} and {keys[-1]}",
+            "keep one of them" if given else "add one of them",
+        )
+
+
+def _no_orbits(block: Block, keys: tuple[str, ...]) -> None:
+    """Keys that make orbits say nothing of satellites that are placed."""
+    for key in keys:
+        if getattr(block, key) != type(block).model_fields[key].default:
+            raise wrong(
+                (key,),
+                "makes orbits of z0_m and zdot0_m_s, and this formation is given by positions",
+                "remove it",
+            )
 
 
 def _form_of_satellites(value: Any) -> str:

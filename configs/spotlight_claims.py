@@ -7,7 +7,7 @@ from typing import Literal, NamedTuple
 
 from pydantic import Field
 
-from .base import Block, Label, Number, Prose
+from .printed import PrintedBlock
 
 QuantityName = Literal[
     "yaw_range",
@@ -53,27 +53,12 @@ UNITS: dict[QuantityName, SpotlightUnit] = {
 """Unit of each quantity of a claim."""
 
 
-class SpotlightClaimBlock(Block):
-    """A printed figure, and what it is compared with."""
+class SpotlightClaimBlock(PrintedBlock):
+    """A printed figure of spotlight, and what it is compared with."""
 
-    text: Label = Field(description="What is claimed, in words.")
-    printed: Label = Field(description="How the source prints it, with its unit.")
     quantity: QuantityName = Field(
         description="What is computed: yaw_, pitch_ and roll_range (largest less smallest angle) "
         "in degrees, largest_rate in degrees per second and largest_acceleration in degrees per "
         "second squared against inertial space, imaging_time in seconds, ground_speed in m/s, "
         "bandwidth in Hz, resolution and aim_error (the largest) in meters."
     )
-    value: Number = Field(
-        ge=0, le=1e6, description="The printed number, in the unit of the quantity."
-    )
-    relation: Literal["equals", "at_most", "at_least"] = Field(
-        default="equals", description="How what is computed must compare with the value."
-    )
-    tolerance: Number = Field(
-        default=0.0,
-        ge=0,
-        le=1e6,
-        description="In the unit of the quantity; half of the last printed digit, at least.",
-    )
-    note: Prose = Field(default="", description="Why it holds or not, in words.")

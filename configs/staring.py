@@ -7,8 +7,7 @@ import math
 from typing import NamedTuple
 
 from formation import Orbit
-from insar import LookSide
-from insar.observe import Relation
+from insar import LookSide, Relation
 from insar.observe.agile.agility import Agility
 from insar.observe.agile.plans import PassPlan
 from insar.observe.agile.spotlight import spotlight

@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from insar import Relation
 from insar.observe import (
     Boresight,
     ClaimSpec,
@@ -17,7 +18,6 @@ from insar.observe import (
     Held,
     Law,
     Quantity,
-    Relation,
     SelectionRequest,
     SteeringCase,
 )

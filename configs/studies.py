@@ -12,7 +12,6 @@ from .agile_studies import CoverageStudy, SpotlightStudy, VideoStudy
 from .base import Whole
 from .blocks import ErrorsBlock, RadarBlock
 from .checks import (
-    check_drift,
     check_images,
     check_labels,
     check_members,
@@ -28,6 +27,12 @@ from .claims import ClaimBlock
 from .dem import DemBlock, check_looks
 from .formations import ComparedFormation, EvaluatedFormation, SearchedFormation
 from .limits import LimitsBlock, SearchBlock, SearchLimitsBlock
+from .mission_claims import (
+    MissionClaimBlock,
+    OpenBlock,
+    check_mission_claims,
+    check_open,
+)
 from .observation import SideName
 from .orbits import OrbitBlock, build_reference
 from .refutation import RefutationBlock
@@ -45,6 +50,14 @@ from .steering import (
 )
 from .steering_checks import check_cases, check_claims, check_samples
 from .study import Study
+from .table_checks import (
+    COMBINED,
+    check_compared,
+    check_evaluated,
+    check_flown,
+    check_joint,
+    check_no_orbit_limits,
+)
 
 
 class FormationStudy(Study):
@@ -89,8 +102,7 @@ class FormationStudy(Study):
             check_looks(self.dem, self.radar)
         check_labels(self.compare)
         for index, compared in enumerate(self.compare):
-            check_members(compared.satellites, names, ("compare", index, "satellites"))
-            check_drift(compared.satellites, orbit, ("compare", index, "satellites"))
+            check_compared(compared, names, orbit, ("compare", index))
 
 
 class OptimizeStudy(FormationStudy):
@@ -108,6 +120,7 @@ class OptimizeStudy(FormationStudy):
         names = self.formation.names
         self._check_common(names)
         check_size(self.radar, self.scene, len(names), self.search.population)
+        check_flown(self.compare)
         if self.formation.initial is not None:
             check_members(self.formation.initial, names, ("formation", "initial"))
         return self
@@ -121,15 +134,41 @@ class EvaluateStudy(FormationStudy):
     constraints: LimitsBlock = Field(
         default=LimitsBlock(), description="Limits to report against; none is enforced."
     )
+    claims: tuple[MissionClaimBlock, ...] = Field(
+        default=(), max_length=100, description="Printed figures to compare with."
+    )
+    open: tuple[OpenBlock, ...] = Field(
+        default=(),
+        max_length=5,
+        description="Numbers that the source of the claims does not publish; each claim is also "
+        "computed at all combinations of their ends.",
+    )
 
     @model_validator(mode="after")
     def _check(self) -> Self:
         names = self.formation.names
         self._check_common(names)
-        check_size(self.radar, self.scene, len(names), 1)
-        check_members(self.formation.satellites, names, ("formation", "satellites"))
-        check_drift(self.formation.satellites, self.reference_orbit, ("formation", "satellites"))
+        check_evaluated(self.formation, self.reference_orbit)
+        acquisitions = self.formation.acquisitions
+        if acquisitions is not None:
+            check_joint(self.errors)
+        check_size(self.radar, self.scene, len(names), len(acquisitions or (1,)) ** 2)
+        check_open(self.open, self)
+        check_mission_claims(
+            self.claims, labels=self.labels, names=names, segments=self.scene.given.count
+        )
+        if self.formation.satellites is None or any(one.table for one in self.compare):
+            check_no_orbit_limits(self.constraints)
         return self
+
+    @property
+    def labels(self) -> tuple[str, ...]:
+        """Labels of all its formations, that of the study first."""
+        acquisitions = self.formation.acquisitions
+        own = (
+            ("formation",) if acquisitions is None else (COMBINED, *(a.label for a in acquisitions))
+        )
+        return (*own, *(one.label for one in self.compare))
 
 
 class SteeringStudy(Study):

@@ -5,6 +5,7 @@ Vectors are RTN (R radial outward, T along-track, N along the orbit normal); SI 
 """
 
 from .accuracy import Cell, HeightAccuracy, height_accuracy
+from .acquisitions import combine_acquisitions
 from .atmosphere import Ionosphere
 from .baselines import (
     PairGeometry,
@@ -15,6 +16,7 @@ from .baselines import (
     scene_critical_baseline,
 )
 from .calibration import Calibration
+from .claims import Claim, PrintedFigure, Relation, Verdict, judged, judged_range
 from .coherence import common_band, snr_coherence
 from .errors import (
     BaselineDecorrelation,
@@ -43,6 +45,7 @@ __all__ = [
     "BaselineDecorrelation",
     "Calibration",
     "Cell",
+    "Claim",
     "ErrorBudget",
     "ErrorSource",
     "HeightAccuracy",
@@ -53,12 +56,16 @@ __all__ = [
     "LookSide",
     "PairGeometry",
     "PhaseModel",
+    "PrintedFigure",
     "Radar",
+    "Relation",
     "Scale",
     "Scene",
     "SharedBy",
     "UnwrappingLadder",
+    "Verdict",
     "Weighting",
+    "combine_acquisitions",
     "common_band",
     "critical_baseline",
     "filtered_information",
@@ -67,6 +74,8 @@ __all__ = [
     "height_error",
     "height_error_of",
     "height_of_ambiguity",
+    "judged",
+    "judged_range",
     "line_of_sight",
     "monostatic",
     "one_transmitter",

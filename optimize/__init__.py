@@ -1,6 +1,16 @@
 """Scores formations by the height-error model, and searches for the best within limits."""
 
-from .assessment import Assessment, ImagePair, Rung, Unwrapping, assess
+from .acquisitions import assess_acquisitions
+from .assessment import (
+    Assessment,
+    ImagePair,
+    Motion,
+    Rung,
+    Unwrapping,
+    assess,
+    assess_placed,
+)
+from .claims import FormationClaim, FormationQuantity, OpenNumber, Over, measure
 from .constraints import Bound, ConstraintReport, Constraints, FailureLimit, Limit
 from .dem_verdict import DemRequest, DemVerdict, FailedDemand, dem_verdict, looks_for
 from .design_space import DesignSpace, DesignVariables
@@ -25,11 +35,16 @@ __all__ = [
     "Evaluation",
     "FailedDemand",
     "FailureLimit",
+    "FormationClaim",
+    "FormationQuantity",
     "GenerationRecord",
     "GeneticSettings",
     "ImagePair",
     "Limit",
+    "Motion",
+    "OpenNumber",
     "OptimizeResult",
+    "Over",
     "Problem",
     "RefutationSettings",
     "Rung",
@@ -37,9 +52,12 @@ __all__ = [
     "SearchSettings",
     "Unwrapping",
     "assess",
+    "assess_acquisitions",
+    "assess_placed",
     "dem_verdict",
     "findings",
     "looks_for",
+    "measure",
     "refuted",
     "search",
     "structured_designs",

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from formation import min_separation, relative_positions, satellite_pairs
 from insar import (
     HeightError,
+    PhaseModel,
     UnwrappingLadder,
     pair_coherence,
     pair_critical_baseline,
@@ -20,7 +21,7 @@ from insar import (
 from insar.simulation import Refutation
 from insar.unwrapping import bootstrap_failure
 
-from .constraints import ConstraintReport
+from .constraints import ConstraintReport, Population
 from .problem import Problem
 
 Array = NDArray[np.float64]
@@ -58,11 +59,13 @@ class Rung(NamedTuple):
     Attributes
     ----------
     images : the two images joined, as indices into `Radar.images`.
+    height_of_ambiguity : of their difference, `inf` at zero baseline [m].
     phase_std : deviation of its phase, given the prior height and the rungs below [rad].
     probability : that its cycle is found.
     """
 
     images: tuple[int, int]
+    height_of_ambiguity: float
     phase_std: float
     probability: float
 
@@ -84,6 +87,22 @@ class Unwrapping(NamedTuple):
     rungs: tuple[Rung, ...]
 
 
+class Motion(NamedTuple):
+    """Relative orbits of a formation.
+
+    Attributes
+    ----------
+    states : (N, 6) — RTN states at t = 0 [m, m/s]; z0 is [:, 0] and ż0 is [:, 3].
+    orbits : (T, N, 3) — RTN positions over one revolution from t = 0, closed [m].
+    separations : (K,) — closest approach of each two satellites, ordered as
+        `formation.satellite_pairs` [m].
+    """
+
+    states: Array
+    orbits: Array
+    separations: Array
+
+
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Assessment:
     """One formation, assessed.
@@ -92,13 +111,14 @@ class Assessment:
     ----------
     label : what it is called in the report.
     names : name of each satellite.
-    states : (N, 6) — RTN states at t = 0 [m, m/s]; z0 is [:, 0] and ż0 is [:, 3].
-    orbits : (T, N, 3) — RTN positions over one revolution from t = 0, closed [m].
-    scene_positions : (S, N, 3) — RTN positions at the scene's times [m].
+    motion : its orbits; None where only positions are given, by a table: nothing is known of where
+        the satellites are at other times, nor how close they come.
+    scene_positions : (S, N, 3), or (A, S, N, 3) of A acquisitions that are combined — RTN positions
+        at the scene's times [m].
     height_error : of (S,) arrays.
-    pairs : of every two images, ordered as `Radar.image_pairs`.
-    separations : (K,) — closest approach of each two satellites, ordered as
-        `formation.satellite_pairs` [m].
+    pairs : of every two images of an acquisition, ordered as `Radar.image_pairs`.
+    acquisitions : labels of the acquisitions that are combined; empty for a single one. The images
+        of a combination are numbered as `insar.combine_acquisitions` orders them.
     unwrapping : None without a prior height.
     constraints : how it stands to each limit.
     refutation : what a simulation says of its height error; None where there was none.
@@ -106,14 +126,13 @@ class Assessment:
 
     label: str
     names: tuple[str, ...]
-    states: Array
-    orbits: Array
+    motion: Motion | None
     scene_positions: Array
     height_error: HeightError
     pairs: tuple[ImagePair, ...]
-    separations: Array
     unwrapping: Unwrapping | None
     constraints: tuple[ConstraintReport, ...]
+    acquisitions: tuple[str, ...] = ()
     refutation: Refutation | None = None
 
     @property
@@ -122,6 +141,19 @@ class Assessment:
         return bool(np.isfinite(self.height_error.region)) and all(
             report.satisfied for report in self.constraints
         )
+
+    @property
+    def flown(self) -> Motion:
+        """Its orbits.
+
+        Raises
+        ------
+        ValueError
+            If it is given by its positions alone.
+        """
+        if self.motion is None:
+            raise ValueError(f"the orbits of {self.label!r} are not known, only its positions")
+        return self.motion
 
     @property
     def separation_pairs(self) -> NDArray[np.intp]:
@@ -146,34 +178,83 @@ def assess(
     Assessment
     """
     state = np.asarray(states, dtype=np.float64)
-    population = problem.population(state[None])
     times = np.linspace(0.0, 2.0 * np.pi / problem.mean_motion, _ORBIT_SAMPLES)
-    positions = population.positions[0]
-    unwrapping = None
-    if problem.constraints.prior_height_std is not None:
-        prior = problem.constraints.prior_height_std
-        unwrapping = _unwrapping(unwrapping_ladder(population.model, prior_height_std=prior), prior)
-    error = problem.height_error(population)
+    motion = Motion(
+        states=state,
+        orbits=relative_positions(state, times, mean_motion=problem.mean_motion),
+        separations=min_separation(state, mean_motion=problem.mean_motion),
+    )
+    return _assessed(problem, problem.population(state[None]), motion, label=label, names=names)
+
+
+def assess_placed(
+    problem: Problem, positions: ArrayLike, *, label: str, names: tuple[str, ...]
+) -> Assessment:
+    """Assess a formation that is given by its positions.
+
+    Parameters
+    ----------
+    problem : what it observes, and its limits.
+    positions : (S, N, 3) — RTN positions at the scene's times [m].
+    label : what it is called in the report.
+    names : name of each satellite.
+
+    Raises
+    ------
+    ValueError
+        If a limit is on that needs orbits.
+    """
+    population = problem.placed(np.asarray(positions, dtype=np.float64)[None])
+    return _assessed(problem, population, None, label=label, names=names)
+
+
+def _assessed(
+    problem: Problem,
+    population: Population,
+    motion: Motion | None,
+    *,
+    label: str,
+    names: tuple[str, ...],
+) -> Assessment:
     return Assessment(
         label=label,
         names=names,
-        states=state,
-        orbits=relative_positions(state, times, mean_motion=problem.mean_motion),
-        scene_positions=positions,
-        height_error=HeightError(
-            total=error.total[0],
-            relative=error.relative[0],
-            terms={name: term[0] for name, term in error.terms.items()},
-            status=error.status[0],
-        ),
-        pairs=_pairs(problem, positions),
-        separations=min_separation(state, mean_motion=problem.mean_motion),
-        unwrapping=unwrapping,
+        motion=motion,
+        scene_positions=population.positions[0],
+        height_error=first_height_error(problem.height_error(population)),
+        pairs=image_pairs(problem, population.positions[0]),
+        unwrapping=unwrapping_of(problem, population.model),
         constraints=problem.constraint_reports(population),
     )
 
 
-def _pairs(problem: Problem, positions: Array) -> tuple[ImagePair, ...]:
+def first_height_error(error: HeightError) -> HeightError:
+    """Height error of the first of several designs, of (S,) arrays."""
+    return HeightError(
+        total=error.total[0],
+        relative=error.relative[0],
+        terms={name: term[0] for name, term in error.terms.items()},
+        status=error.status[0],
+    )
+
+
+def unwrapping_of(problem: Problem, model: PhaseModel) -> Unwrapping | None:
+    """Whether the phase of the first design of a model can be unwrapped; None without a prior."""
+    prior = problem.constraints.prior_height_std
+    if prior is None:
+        return None
+    ladder = unwrapping_ladder(model, prior_height_std=prior)
+    return _unwrapping(ladder, model.vertical_wavenumber[0], prior)
+
+
+def image_pairs(problem: Problem, positions: Array) -> tuple[ImagePair, ...]:
+    """Interferogram of every two images of one acquisition.
+
+    Parameters
+    ----------
+    problem : scene, radar and errors.
+    positions : (S, N, 3) — RTN positions at the scene's times [m].
+    """
     scene, radar, errors = problem.scene, problem.radar, problem.errors
     geometry = pair_geometry(positions, scene, radar=radar, held_constant=errors.held_constant)
     coherence, looks = pair_coherence(
@@ -198,13 +279,19 @@ def _pairs(problem: Problem, positions: Array) -> tuple[ImagePair, ...]:
     )
 
 
-def _unwrapping(ladder: UnwrappingLadder, prior_height_std: float) -> Unwrapping:
+def _unwrapping(
+    ladder: UnwrappingLadder, vertical_wavenumber: Array, prior_height_std: float
+) -> Unwrapping:
     probability = ladder.probability[0]
     worst = int(np.argmax(ladder.failure[0]))
     deviations = ladder.cycle_std[0, worst]
+    kz = vertical_wavenumber[worst]
+    with np.errstate(divide="ignore"):
+        ambiguity = 2.0 * np.pi / np.abs(kz[:, None] - kz)
     rungs = tuple(
         Rung(
             images=(int(min(pair)), int(max(pair))),
+            height_of_ambiguity=float(ambiguity[pair[0], pair[1]]),
             phase_std=float(2.0 * np.pi * deviation),
             probability=float(1.0 - bootstrap_failure(deviation[None])),
         )

@@ -37,14 +37,15 @@ class Population(NamedTuple):
 
     Attributes
     ----------
-    states : (P, N, 6) — RTN states at t = 0 [m, m/s].
+    states : (P, N, 6) — RTN states at t = 0 [m, m/s]; None for satellites that are placed at each
+        time, by a table, and follow no known orbit.
     positions : (P, S, N, 3) — RTN positions at the scene's times [m].
     model : their phase model.
     mean_motion : scalar — angular rate of the reference orbit [rad/s].
     scene, radar, errors : what they observe, and how.
     """
 
-    states: Array
+    states: Array | None
     positions: Array
     model: PhaseModel
     mean_motion: float
@@ -174,6 +175,12 @@ class Constraints:
             )
 
     @property
+    def of_orbits(self) -> tuple[str, ...]:
+        """Names of those that are on and need orbits: a table of positions cannot keep them."""
+        names = ("max_radius", "min_separation", "max_offset", "max_rate")
+        return tuple(name for name in names if getattr(self, name) is not None)
+
+    @property
     def limits(self) -> tuple[Limit, ...]:
         """The limits that are on."""
         candidates = (
@@ -208,7 +215,7 @@ class Constraints:
                 "m",
                 name="radial offset |z0|",
                 remedy="allow a larger offset",
-                quantity=lambda population: np.abs(population.states[..., 0]),
+                quantity=lambda population: np.abs(_states(population)[..., 0]),
             ),
             _limit(
                 Bound.AT_MOST,
@@ -216,7 +223,7 @@ class Constraints:
                 "m/s",
                 name="radial rate |ż0|",
                 remedy="allow a larger rate",
-                quantity=lambda population: np.abs(population.states[..., 3]),
+                quantity=lambda population: np.abs(_states(population)[..., 3]),
             ),
         )
         return tuple(limit for limit in candidates if limit is not None)
@@ -250,13 +257,19 @@ def _limit(
     return Limit(name=name, unit=unit, bound=bound, value=value, remedy=remedy, quantity=quantity)
 
 
+def _states(population: Population) -> Array:
+    if population.states is None:
+        raise ValueError("a limit on the orbits needs states; placed satellites have none")
+    return population.states
+
+
 def _radius(population: Population) -> Array:
-    states = population.states
+    states = _states(population)
     return orbit_radius(states[..., 0], states[..., 3], mean_motion=population.mean_motion)
 
 
 def _separation(population: Population) -> Array:
-    return min_separation(population.states, mean_motion=population.mean_motion)
+    return min_separation(_states(population), mean_motion=population.mean_motion)
 
 
 def _unwrapping_failure(prior_height_std: float) -> Callable[[Population], Array]:

@@ -75,9 +75,7 @@ def _of_the_formation(problem: Problem, assessment: Assessment) -> list[str]:
             f"{len(dark)} of {len(assessment.pairs)} pairs reach their critical baseline: they "
             "have no coherence and carry no information of their own."
         )
-    closest = float(assessment.separations.min())
-    if problem.constraints.min_separation is None and closest < _COLLISION:
-        notes.append(f"Two satellites come within {closest:.3g} m of each other: they may collide.")
+    notes += _of_collision(problem, assessment)
     notes += _of_doppler(problem, assessment)
     beyond = [pair for pair in assessment.pairs if np.any(pair.baseline_over_critical >= 1.0)]
     if beyond and not dark:
@@ -86,6 +84,16 @@ def _of_the_formation(problem: Problem, assessment: Assessment) -> list[str]:
             "images have no coherence; the error model of this study counts them all the same."
         )
     return notes
+
+
+def _of_collision(problem: Problem, assessment: Assessment) -> list[str]:
+    """Satellites that come close to each other, where the orbits are known."""
+    if assessment.motion is None or problem.constraints.min_separation is not None:
+        return []
+    closest = float(assessment.motion.separations.min())
+    if closest >= _COLLISION:
+        return []
+    return [f"Two satellites come within {closest:.3g} m of each other: they may collide."]
 
 
 def _of_doppler(problem: Problem, assessment: Assessment) -> list[str]:
@@ -139,8 +147,13 @@ def _of_the_model(problem: Problem) -> list[str]:
 
 def _of_safety(assessment: Assessment) -> str:
     """Whether along-track phasing alone keeps a pair apart."""
+    if assessment.motion is None:
+        return (
+            "The formation is given by positions at the scene's times, not by orbits: whether the "
+            "satellites keep apart at other times was not assessed."
+        )
     first, second = assessment.separation_pairs.T
-    relative = assessment.states[second] - assessment.states[first]
+    relative = assessment.motion.states[second] - assessment.motion.states[first]
     radial, normal, radial_rate, normal_rate = relative[:, [0, 2, 3, 5]].T
     # The radial-normal motion of a pair is an ellipse about zero; without area it crosses zero.
     area = np.abs(radial * normal_rate - normal * radial_rate)

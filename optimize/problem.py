@@ -117,8 +117,30 @@ class Problem:
         """
         state = np.asarray(states, dtype=np.float64)
         positions = relative_positions(state, self.scene.times, mean_motion=self.mean_motion)
+        return self._population(state, positions)
+
+    def placed(self, positions: ArrayLike) -> Population:
+        """Formations that are given by their positions, whatever orbits lead there.
+
+        Parameters
+        ----------
+        positions : (P, S, N, 3) — RTN positions at the scene's times [m].
+
+        Raises
+        ------
+        ValueError
+            If a limit is on that needs orbits.
+        """
+        if self.constraints.of_orbits:
+            raise ValueError(
+                f"the limits {', '.join(self.constraints.of_orbits)} are on the orbits, which "
+                "positions alone do not tell; switch them off"
+            )
+        return self._population(None, np.asarray(positions, dtype=np.float64))
+
+    def _population(self, states: Array | None, positions: Array) -> Population:
         return Population(
-            states=state,
+            states=states,
             positions=positions,
             model=phase_model(positions, self.scene, radar=self.radar, errors=self.errors),
             mean_motion=self.mean_motion,
@@ -149,7 +171,19 @@ class Problem:
             ConstraintReport(
                 limit,
                 value=float(limit.worst(population)[0]),
-                satisfied=bool(limit.margins(population)[0].min() >= -FEASIBILITY_TOLERANCE),
+                satisfied=bool(self.keeps(limit, population)[0]),
             )
             for limit in self.limits
         )
+
+    @staticmethod
+    def keeps(limit: Limit, population: Population) -> NDArray[np.bool_]:
+        """Which formations of a population keep a limit, (P,).
+
+        Parameters
+        ----------
+        limit : one of the limits.
+        population : from `population` or `placed`.
+        """
+        kept: NDArray[np.bool_] = limit.margins(population).min(axis=-1) >= -FEASIBILITY_TOLERANCE
+        return kept

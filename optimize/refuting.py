@@ -45,12 +45,15 @@ def refuted(
 
     Returns
     -------
-    The assessments in the same order; unchanged where there are too many images to simulate.
+    The assessments in the same order; unchanged where there are too many images to simulate, and
+    of combined acquisitions, each of which is simulated by itself.
     """
     if settings is None or len(problem.radar.images) > MAX_IMAGES:
         return tuple(assessments)
     return tuple(
-        replace(
+        assessment
+        if assessment.acquisitions
+        else replace(
             assessment,
             refutation=refute(
                 assessment.scene_positions,

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from insar import Claim
+
 from .assessment import Assessment
+from .claims import OpenNumber
 from .dem_verdict import DemVerdict
 from .problem import Problem
 from .search import SearchResult
@@ -46,8 +49,11 @@ class EvaluateResult:
     ----------
     problem : scene, radar, errors and limits.
     critical_baseline : scalar — the smallest over the segments [m].
-    formation : the formation given.
+    formation : the formation given; its acquisitions combined where there are several.
+    acquisitions : each by itself; empty for a formation that acquires once.
     compare : other formations, assessed in the same way.
+    claims : printed figures and their verdicts.
+    opened : what the source of the claims does not publish.
     warnings : what a reader must know before using the result.
     dem : the elevation model of the formation, and what limits it.
     """
@@ -58,3 +64,6 @@ class EvaluateResult:
     compare: tuple[Assessment, ...]
     warnings: tuple[str, ...]
     dem: DemVerdict | None = None
+    acquisitions: tuple[Assessment, ...] = ()
+    claims: tuple[Claim, ...] = ()
+    opened: tuple[OpenNumber, ...] = ()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from insar.observe import Claim
+from insar import Claim
 
 from .json_numbers import Json, finite
 
@@ -18,6 +18,8 @@ def claims_json(claims: Sequence[Claim]) -> list[Json]:
             "computed": finite(claim.computed),
             "agrees_from": finite(claim.least),
             "agrees_to": finite(claim.most),
+            "possible_from": finite(claim.lowest),
+            "possible_to": finite(claim.highest),
             "unit": claim.unit,
             "verdict": claim.verdict.value,
             "note": claim.note,

@@ -9,6 +9,7 @@ import numpy as np
 
 from optimize import Assessment, EvaluateResult, ImagePair, OptimizeResult, Problem
 
+from .json_claims import claims_json
 from .json_numbers import Json, finite, finite_list
 from .json_observation import observation_json
 from .json_refutation import refutation_json
@@ -112,7 +113,10 @@ def evaluate_json(result: EvaluateResult) -> Json:
             "critical_baseline_m": finite(result.critical_baseline),
             "mean_motion_rad_s": finite(problem.mean_motion),
             "formation": assessment_json(problem, result.formation),
+            "acquisitions": [assessment_json(problem, one) for one in result.acquisitions],
             "compare": [assessment_json(problem, one) for one in result.compare],
+            "claims": claims_json(result.claims),
+            "open": [one._asdict() for one in result.opened],
         },
         "warnings": list(result.warnings),
     }
@@ -123,16 +127,8 @@ def assessment_json(problem: Problem, assessment: Assessment) -> Json:
     error, unwrapping = assessment.height_error, assessment.unwrapping
     return {
         "label": assessment.label,
-        "satellites": [
-            {
-                "name": name,
-                "z0_m": finite(state[0]),
-                "zdot0_m_s": finite(state[3]),
-                "position_rtn_m": finite_list(state[:3]),
-                "velocity_rtn_m_s": finite_list(state[3:]),
-            }
-            for name, state in zip(assessment.names, assessment.states, strict=True)
-        ],
+        "acquisitions": list(assessment.acquisitions),
+        "satellites": _satellites(assessment),
         "height_error": {
             "region_rms_m": finite(error.region),
             "relative_rms_m": finite(error.relative_region),
@@ -150,23 +146,15 @@ def assessment_json(problem: Problem, assessment: Assessment) -> Json:
             "worst_segment": unwrapping.worst_segment + 1,
             "rungs": [
                 {
-                    "images": _images(problem, assessment.names, rung.images),
+                    "images": _images(problem, assessment, rung.images),
                     "phase_std_rad": finite(rung.phase_std),
                     "probability": finite(rung.probability),
                 }
                 for rung in unwrapping.rungs
             ],
         },
-        "pairs": [_pair_json(problem, assessment.names, pair) for pair in assessment.pairs],
-        "separations": [
-            {
-                "satellites": [assessment.names[first], assessment.names[second]],
-                "min_separation_m": finite(separation),
-            }
-            for (first, second), separation in zip(
-                assessment.separation_pairs, assessment.separations, strict=True
-            )
-        ],
+        "pairs": [_pair_json(problem, assessment, pair) for pair in assessment.pairs],
+        "separations": _separations(assessment),
         "constraints": [
             {
                 "name": report.limit.name,
@@ -185,11 +173,50 @@ def assessment_json(problem: Problem, assessment: Assessment) -> Json:
     }
 
 
-def _pair_json(problem: Problem, names: tuple[str, ...], pair: ImagePair) -> Json:
+def _satellites(assessment: Assessment) -> list[Json]:
+    """State of each satellite; of one that is placed, its positions in the segments."""
+    if assessment.acquisitions:
+        return [{"name": name} for name in assessment.names]
+    if assessment.motion is None:
+        positions = np.swapaxes(assessment.scene_positions, 0, 1)
+        return [
+            {"name": name, "segment_positions_rtn_m": [finite_list(row) for row in rows]}
+            for name, rows in zip(assessment.names, positions, strict=True)
+        ]
+    return [
+        {
+            "name": name,
+            "z0_m": finite(state[0]),
+            "zdot0_m_s": finite(state[3]),
+            "position_rtn_m": finite_list(state[:3]),
+            "velocity_rtn_m_s": finite_list(state[3:]),
+        }
+        for name, state in zip(assessment.names, assessment.motion.states, strict=True)
+    ]
+
+
+def _separations(assessment: Assessment) -> list[Json] | None:
+    """Closest approaches; None where only positions are known."""
+    if assessment.motion is None:
+        return None
+    return [
+        {
+            "satellites": [assessment.names[first], assessment.names[second]],
+            "min_separation_m": finite(separation),
+        }
+        for (first, second), separation in zip(
+            assessment.separation_pairs, assessment.motion.separations, strict=True
+        )
+    ]
+
+
+def _pair_json(problem: Problem, assessment: Assessment, pair: ImagePair) -> Json:
     zero = not np.all(np.isfinite(pair.height_of_ambiguity))
     return {
-        "images": _images(problem, names, pair.images),
-        "satellites": [names[index] for index in pair_satellites(problem, pair.images)],
+        "images": _images(problem, assessment, pair.images),
+        "satellites": [
+            assessment.names[index] for index in pair_satellites(problem, assessment, pair.images)
+        ],
         "perpendicular_baseline_m": finite_list(pair.perpendicular_baseline),
         "azimuth_baseline_m": finite_list(pair.azimuth_baseline),
         "baseline_over_critical": finite_list(pair.baseline_over_critical),
@@ -202,5 +229,5 @@ def _pair_json(problem: Problem, names: tuple[str, ...], pair: ImagePair) -> Jso
     }
 
 
-def _images(problem: Problem, names: tuple[str, ...], images: tuple[int, int]) -> list[str]:
-    return [image_name(problem, names, image) for image in images]
+def _images(problem: Problem, assessment: Assessment, images: tuple[int, int]) -> list[str]:
+    return [image_name(problem, assessment, image) for image in images]

@@ -9,6 +9,7 @@ import numpy as np
 
 from insar import BaselineDecorrelation, HeightStatus
 from optimize import Assessment, ConstraintReport, FailureLimit, Problem
+from optimize.acquisitions import image_of
 
 ACTIVE_MARGIN = 1e-3
 """Margin, in parts of the limit, below which a limit that is kept counts as active."""
@@ -91,10 +92,19 @@ def broken(assessment: Assessment) -> tuple[ConstraintReport, ...]:
     return tuple(report for report in assessment.constraints if not report.satisfied)
 
 
-def image_name(problem: Problem, names: tuple[str, ...], image: int) -> str:
-    """Image as transmitter→receiver."""
-    transmitter, receiver = problem.radar.images[image]
-    return f"{names[transmitter]}→{names[receiver]}"
+def image_name(problem: Problem, assessment: Assessment, image: int) -> str:
+    """Image as transmitter→receiver; of several acquisitions, with which it is of."""
+    acquisition, own = _origin(problem, assessment, image)
+    transmitter, receiver = problem.radar.images[own]
+    name = f"{assessment.names[transmitter]}→{assessment.names[receiver]}"
+    if not assessment.acquisitions:
+        return name
+    return f"{assessment.acquisitions[acquisition]}: {name}" if image else f"reference: {name}"
+
+
+def _origin(problem: Problem, assessment: Assessment, image: int) -> tuple[int, int]:
+    """Acquisition, and image of the radar, of an image."""
+    return image_of(problem, image) if assessment.acquisitions else (0, image)
 
 
 def sole_transmitter(problem: Problem) -> int | None:
@@ -103,16 +113,39 @@ def sole_transmitter(problem: Problem) -> int | None:
     return transmitters.pop() if len(transmitters) == 1 else None
 
 
-def pair_name(problem: Problem, names: tuple[str, ...], images: tuple[int, int]) -> str:
-    """Pair of images by their names; by the receivers alone where one satellite transmits."""
+def pair_name(problem: Problem, assessment: Assessment, images: tuple[int, int]) -> str:
+    """Pair of images by their names; by the receivers alone where one satellite transmits.
+
+    Of several acquisitions, with the one that the pair is of; two images of different acquisitions
+    stand for the difference of two interferograms.
+    """
+    (first, one), (second, other) = (_origin(problem, assessment, image) for image in images)
+    if not assessment.acquisitions:
+        return _own_pair_name(problem, assessment, (one, other))
+    if images[0] == 0 or first == second:
+        label = assessment.acquisitions[second]
+        return f"{label}: {_own_pair_name(problem, assessment, (one, other))}"
+    return " − ".join(
+        f"{assessment.acquisitions[acquisition]}: {_own_pair_name(problem, assessment, (0, image))}"
+        for acquisition, image in ((second, other), (first, one))
+    )
+
+
+def _own_pair_name(problem: Problem, assessment: Assessment, images: tuple[int, int]) -> str:
+    """Pair of images of the radar by their names."""
+    names = assessment.names
     if sole_transmitter(problem) is not None:
         return " · ".join(names[problem.radar.images[image][1]] for image in images)
-    return " · ".join(image_name(problem, names, image) for image in images)
+    ends = ((names[t], names[r]) for t, r in (problem.radar.images[image] for image in images))
+    return " · ".join(f"{transmitter}→{receiver}" for transmitter, receiver in ends)
 
 
-def pair_satellites(problem: Problem, images: tuple[int, int]) -> tuple[int, ...]:
+def pair_satellites(
+    problem: Problem, assessment: Assessment, images: tuple[int, int]
+) -> tuple[int, ...]:
     """Satellites between whose phase centers the baseline of a pair lies."""
-    first, second = problem.radar.incidence_matrix[list(images)]
+    own = [_origin(problem, assessment, image)[1] for image in images]
+    first, second = problem.radar.incidence_matrix[own]
     return tuple(int(index) for index in np.flatnonzero(first != second))
 
 
@@ -134,7 +167,9 @@ def drawn_baselines(problem: Problem, assessment: Assessment) -> Baselines:
     if len(assessment.names) <= _MOST_SATELLITES_JOINED:
         every = [(int(first), int(second)) for first, second in assessment.separation_pairs]
         return Baselines(tuple(every), "the baselines between them")
-    ends = dict.fromkeys(pair_satellites(problem, images) for images in rung_numbers(assessment))
+    ends = dict.fromkeys(
+        pair_satellites(problem, assessment, images) for images in rung_numbers(assessment)
+    )
     two = tuple((pair[0], pair[1]) for pair in ends if len(pair) == 2)
     return Baselines(two, "the baselines of the unwrapping ladder" if two else "")
 

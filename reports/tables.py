@@ -39,14 +39,42 @@ def csv_bytes(frame: pd.DataFrame) -> bytes:
 
 
 def formation_frame(assessments: Sequence[Assessment]) -> pd.DataFrame:
-    """States at t = 0, a row for each satellite of each formation."""
+    """States at t = 0, a row for each satellite of each formation whose orbits are known."""
     rows = [
         {"label": assessment.label, "satellite": name, "z0_m": state[0], "zdot0_m_s": state[3]}
         | dict(zip(_STATE_COLUMNS, state.tolist(), strict=True))
         for assessment in assessments
-        for name, state in zip(assessment.names, assessment.states, strict=True)
+        if assessment.motion is not None
+        for name, state in zip(assessment.names, assessment.motion.states, strict=True)
     ]
     return pd.DataFrame(rows)
+
+
+def positions_frame(assessments: Sequence[Assessment]) -> pd.DataFrame:
+    """Positions at the scene's times: a row for each satellite and segment of each formation."""
+    rows = [
+        {"label": assessment.label, "satellite": name, "segment": segment}
+        | dict(zip(_STATE_COLUMNS[:3], position.tolist(), strict=True))
+        for assessment in assessments
+        if not assessment.acquisitions
+        for index, name in enumerate(assessment.names)
+        for segment, position in enumerate(assessment.scene_positions[:, index], 1)
+    ]
+    return pd.DataFrame(rows)
+
+
+def placed_frame(assessment: Assessment) -> pd.DataFrame:
+    """Positions of the satellites over the scene, what varies as a `Span`."""
+    return pd.DataFrame(
+        [
+            {"satellite": name}
+            | {
+                key: _span(assessment.scene_positions[:, index, axis])
+                for axis, key in enumerate(_STATE_COLUMNS[:3])
+            }
+            for index, name in enumerate(assessment.names)
+        ]
+    )
 
 
 def height_error_frame(problem: Problem, assessments: Sequence[Assessment]) -> pd.DataFrame:
@@ -109,7 +137,10 @@ def comparison_frame(assessments: Sequence[Assessment]) -> pd.DataFrame:
         max(float(pair.baseline_over_critical.max()) for pair in one.pairs) for one in assessments
     ]
     frame["min_separation_m"] = [
-        float(one.separations.min()) if one.separations.size else math.nan for one in assessments
+        math.nan
+        if one.motion is None or not one.motion.separations.size
+        else float(one.motion.separations.min())
+        for one in assessments
     ]
     return frame
 
@@ -121,7 +152,7 @@ def pairs_frame(problem: Problem, assessment: Assessment) -> pd.DataFrame:
     return pd.DataFrame(
         [
             {
-                "pair": pair_name(problem, assessment.names, pair.images),
+                "pair": pair_name(problem, assessment, pair.images),
                 "perpendicular_baseline_m": _span(pair.perpendicular_baseline),
                 "azimuth_baseline_m": _span(pair.azimuth_baseline),
                 "baseline_over_critical": _span(pair.baseline_over_critical),
@@ -145,13 +176,12 @@ def rungs_frame(problem: Problem, assessment: Assessment) -> pd.DataFrame:
     unwrapping = assessment.unwrapping
     if unwrapping is None:
         return pd.DataFrame()
-    ambiguity = {pair.images: pair.height_of_ambiguity for pair in assessment.pairs}
     return pd.DataFrame(
         [
             {
                 "rung": number,
-                "pair": pair_name(problem, assessment.names, rung.images),
-                "height_of_ambiguity_m": float(ambiguity[rung.images][unwrapping.worst_segment]),
+                "pair": pair_name(problem, assessment, rung.images),
+                "height_of_ambiguity_m": rung.height_of_ambiguity,
                 "phase_std_rad": rung.phase_std,
                 "probability": rung.probability,
             }

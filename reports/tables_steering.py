@@ -9,15 +9,8 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from insar.observe import (
-    CaseResult,
-    Claim,
-    Compensation,
-    LawCurves,
-    Outcome,
-    Selection,
-    SteeringResult,
-)
+from insar import Claim
+from insar.observe import CaseResult, Compensation, LawCurves, Outcome, Selection, SteeringResult
 
 from .steering_words import law_name, solved, unsolved_reason
 

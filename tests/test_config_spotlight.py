@@ -25,8 +25,7 @@ from configs.spotlight_claims import UNITS
 from configs.staring import build_spotlight
 from formation_opt.runs import Options
 from formation_opt.runs import spotlight as runs_spotlight
-from insar import LookSide
-from insar.observe import Relation, Verdict
+from insar import LookSide, Relation, Verdict
 from insar.observe.agile.spotlight import spotlight, spotlight_scene
 from insar.observe.agile.spotlight_claims import SpotlightClaim, SpotlightQuantity, judge_spotlight
 from insar.observe.agile.spotlight_plan import plan_spotlight

@@ -18,7 +18,7 @@ from configs import (
 )
 from configs.build import build_steering
 from formation.constants import EARTH_EQUATORIAL_RADIUS
-from insar import LookSide
+from insar import LookSide, Relation, Verdict
 from insar.observe import (
     Effect,
     FixedIncidence,
@@ -26,8 +26,6 @@ from insar.observe import (
     Held,
     Law,
     Quantity,
-    Relation,
-    Verdict,
     assess_case,
     compensate,
     judge,

@@ -18,11 +18,10 @@ from numpy.testing import assert_allclose
 from formation import KeplerianOrbit, States
 from formation.constants import EARTH_GRAVITATIONAL_PARAMETER, EARTH_ROTATION_RATE
 from formation.elements import Elements, mean_motion
-from insar import LookSide
+from insar import Claim, LookSide, Relation, Verdict
 from insar.observe import (
     WGS84,
     CaseResult,
-    Claim,
     ClaimSpec,
     Compensation,
     CompensationRequest,
@@ -32,11 +31,9 @@ from insar.observe import (
     Held,
     Law,
     Quantity,
-    Relation,
     Selection,
     SelectionRequest,
     SteeringCase,
-    Verdict,
     assess_case,
     compensate,
     judge,

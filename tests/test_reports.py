@@ -366,8 +366,8 @@ def test_csv_has_every_digit(result: OptimizeResult, tmp_path: Path) -> None:
     np.testing.assert_array_equal(best, result.best.height_error.total)
     assert float(rows[0]["look_deg"]) == pytest.approx(23.0, rel=1e-15)
     states = list(csv.DictReader(io.StringIO((tmp_path / "formation.csv").read_text("utf-8"))))
-    assert float(states[3]["z0_m"]) == result.best.states[0, 0]
-    assert float(states[5]["vn_m_s"]) == result.best.states[2, 5]
+    assert float(states[3]["z0_m"]) == result.best.motion.states[0, 0]
+    assert float(states[5]["vn_m_s"]) == result.best.motion.states[2, 5]
 
 
 @pytest.mark.parametrize("name", ODD_RESULTS)

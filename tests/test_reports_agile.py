@@ -16,8 +16,7 @@ import numpy as np
 import pytest
 
 from formation import KeplerianOrbit, Trajectory, raan_from_longitude
-from insar import LookSide
-from insar.observe import Claim, Verdict
+from insar import Claim, LookSide, Verdict
 from insar.observe.agile.agility import Agility
 from insar.observe.agile.spotlight import spotlight
 from insar.observe.agile.spotlight_results import SpotlightRequest, SpotlightResult

@@ -19,10 +19,19 @@ import pytest
 from matplotlib.figure import Figure
 
 from formation import Elements, KeplerianOrbit, Orbit, equally_spaced, ground_track_circular
-from insar import ErrorBudget, ErrorSource, LookSide, Radar, Scene, SharedBy, one_transmitter
+from insar import (
+    Claim,
+    ErrorBudget,
+    ErrorSource,
+    LookSide,
+    Radar,
+    Scene,
+    SharedBy,
+    Verdict,
+    one_transmitter,
+)
 from insar.observe import (
     CaseResult,
-    Claim,
     Compensation,
     CompensationRequest,
     FixedIncidence,
@@ -36,7 +45,6 @@ from insar.observe import (
     SelectionRequest,
     SteeringCase,
     SteeringResult,
-    Verdict,
     assess_case,
     compensate,
     select,

@@ -470,7 +470,7 @@ def test_initial_formation_of_the_realistic_example_cannot_be_unwrapped(realisti
     assert initial.height_error.region < 0.5
     assert initial.unwrapping.probability.max() < 0.5
     assert not initial.feasible
-    assert_allclose(initial.orbits[0], initial.orbits[-1], atol=1e-6)
+    assert_allclose(initial.motion.orbits[0], initial.motion.orbits[-1], atol=1e-6)
 
 
 @pytest.mark.parametrize(

@@ -2,9 +2,27 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
+import numpy as np
+
 from configs import EvaluateStudy
-from configs.build import EvaluateSetup
-from optimize import EvaluateResult, assess, dem_verdict, findings, refuted
+from configs.build import EvaluateSetup, NamedStates
+from configs.placing import NamedPositions
+from configs.table_checks import COMBINED
+from insar import Claim, judged_range
+from optimize import (
+    Assessment,
+    EvaluateResult,
+    Problem,
+    assess,
+    assess_acquisitions,
+    assess_placed,
+    dem_verdict,
+    findings,
+    measure,
+    refuted,
+)
 
 from .formation_summary import formation_summary, refutation_seed, scene_cautions
 from .outcome import Options, Outcome
@@ -19,35 +37,85 @@ def run(study: EvaluateStudy, setup: EvaluateSetup, options: Options) -> Outcome
     setup : what it is computed with.
     options : of the command line.
     """
-    formation = assess(setup.problem, setup.states, label="formation", names=setup.names)
+    formation, acquisitions, compare = _assessments(setup)
     seed = refutation_seed(study, options, 1)
-    formation, *compare = refuted(
+    formation, *others = refuted(
         setup.problem,
-        [
-            formation,
-            *(
-                assess(setup.problem, states, label=label, names=names)
-                for label, names, states in setup.compare
-            ),
-        ],
+        [formation, *acquisitions, *compare],
         settings=setup.refutation,
         seed=seed,
     )
-    dem = dem_verdict(setup.problem, formation.states, label=formation.label, request=setup.dem)
+    count = len(acquisitions)
+    acquisitions, compare = tuple(others[:count]), tuple(others[count:])
+    dem = None
+    if formation.motion is not None:
+        states = formation.motion.states
+        dem = dem_verdict(setup.problem, states, label=formation.label, request=setup.dem)
     cautions = scene_cautions(setup.observation)
     result = EvaluateResult(
         problem=setup.problem,
         critical_baseline=setup.critical_baseline,
         formation=formation,
-        compare=tuple(compare),
+        acquisitions=acquisitions,
+        compare=compare,
+        opened=setup.opened,
+        claims=_claims(setup, (formation, *acquisitions, *compare)),
         warnings=(*cautions, *findings(setup.problem, formation)),
         dem=dem,
     )
     return Outcome(
         result=result,
-        summary=formation_summary((*compare, formation), cautions, dem=dem),
-        evaluations=1 + len(compare),
+        summary=formation_summary((*compare, *acquisitions, formation), cautions, dem=dem),
+        evaluations=1 + len(acquisitions) + len(compare),
         seed=None if setup.refutation is None else seed,
         orbit=setup.orbit,
         observation=setup.observation,
     )
+
+
+def _assessments(
+    setup: EvaluateSetup,
+) -> tuple[Assessment, tuple[Assessment, ...], tuple[Assessment, ...]]:
+    """The formation, its acquisitions, and those to compare with."""
+    formation, acquisitions = _formation(setup)
+    return formation, acquisitions, tuple(_assess(setup.problem, one) for one in setup.compare)
+
+
+def _claims(setup: EvaluateSetup, shown: Sequence[Assessment]) -> tuple[Claim, ...]:
+    """Printed figures, judged over the range that the source leaves open."""
+    if not setup.claims:
+        return ()
+    ends = []
+    for corner in setup.corners:
+        formation, acquisitions, compare = _assessments(corner)
+        ends.append((corner.problem, (formation, *acquisitions, *compare)))
+    return tuple(
+        judged_range(
+            claim,
+            measure(claim, setup.problem, shown),
+            [measure(claim, problem, found) for problem, found in ends],
+        )
+        for claim in setup.claims
+    )
+
+
+def _formation(setup: EvaluateSetup) -> tuple[Assessment, tuple[Assessment, ...]]:
+    """The formation, and its acquisitions where there are several."""
+    given = setup.formation
+    if isinstance(given, NamedStates):
+        return _assess(setup.problem, given), ()
+    if len(given) == 1:
+        return _assess(setup.problem, given[0]), ()
+    return assess_acquisitions(
+        setup.problem,
+        np.stack([one.positions for one in given]),
+        labels=[one.label for one in given],
+        names=setup.names,
+        label=COMBINED,
+    )
+
+
+def _assess(problem: Problem, one: NamedStates | NamedPositions) -> Assessment:
+    if isinstance(one, NamedStates):
+        return assess(problem, one.states, label=one.label, names=one.names)
+    return assess_placed(problem, one.positions, label=one.label, names=one.names)

@@ -55,11 +55,10 @@ from .steering_angles import (
     zhao,
 )
 from .studies.assess import assess_case, swath_doppler
-from .studies.claims import ClaimSpec, Quantity, Relation, judge
+from .studies.claims import ClaimSpec, Quantity, judge
 from .studies.compensation import CompensationRequest, compensate, target_at_depth
 from .studies.results import (
     CaseResult,
-    Claim,
     Compensation,
     CompensationCurve,
     Effect,
@@ -68,7 +67,6 @@ from .studies.results import (
     Selection,
     SteeringCase,
     SteeringResult,
-    Verdict,
 )
 from .studies.selection import SelectionRequest, select
 
@@ -78,7 +76,6 @@ __all__ = [
     "BeamPlane",
     "Boresight",
     "CaseResult",
-    "Claim",
     "ClaimSpec",
     "Compensation",
     "CompensationCurve",
@@ -99,14 +96,12 @@ __all__ = [
     "PitchRoll",
     "Quantity",
     "Reference",
-    "Relation",
     "Selection",
     "SelectionRequest",
     "Steering",
     "SteeringCase",
     "SteeringResult",
     "Swath",
-    "Verdict",
     "YawPitch",
     "aim",
     "angle_at_incidence",

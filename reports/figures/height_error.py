@@ -25,9 +25,15 @@ _SEGMENT = "segment"
 
 
 def scene_axis(scene: Scene) -> tuple[Array, str]:
-    """Abscissa of the segments and its label: time, or the number where time does not run."""
+    """Abscissa of the segments and its label: time, or the incidence where time stands still.
+
+    The number of the segment where neither runs.
+    """
     if len(scene) > 1 and bool(np.all(np.diff(scene.times) > 0.0)):
         return scene.times, "time since the epoch of the states [s]"
+    still = bool(np.all(scene.times == scene.times[0]))
+    if len(scene) > 1 and still and bool(np.all(np.diff(scene.incidence) > 0.0)):
+        return np.rad2deg(scene.incidence), "incidence [°]"
     return np.arange(1.0, len(scene) + 1.0), _SEGMENT
 
 

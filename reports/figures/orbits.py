@@ -128,7 +128,7 @@ _VIEWER = {(_T, _R): -1.0, (_N, _R): 1.0, (_T, _N): 1.0}
 
 def half_extents(assessment: Assessment) -> Array:
     """Half the size of the box around all orbits, along R, T and N, with room for names."""
-    reach = np.abs(assessment.orbits).max(axis=(0, 1))
+    reach = np.abs(assessment.flown.orbits).max(axis=(0, 1))
     largest = float(reach.max())
     if largest == 0.0:
         return np.ones(3)
@@ -137,13 +137,13 @@ def half_extents(assessment: Assessment) -> Array:
 
 def open_side(assessment: Assessment) -> float:
     """Side along N, +1 or −1, from which the orbits are not seen edge on."""
-    tilt = float(np.sum(assessment.orbits[..., _R] * assessment.orbits[..., _N]))
+    tilt = float(np.sum(assessment.flown.orbits[..., _R] * assessment.flown.orbits[..., _N]))
     return 1.0 if tilt < 0.0 else -1.0
 
 
 def orbit_dashes(assessment: Assessment) -> list[Any]:
     """Line style of each orbit: dashed on top of another that it would hide."""
-    size = assessment.orbits.max(axis=0)
+    size = assessment.flown.orbits.max(axis=0)
     tolerance = 0.015 * max(float(size.max()), 1e-9)  # the eye cannot separate these
     alike = np.abs(size[:, None] - size[None, :]).max(axis=-1) < tolerance
     styles: list[Any] = []
@@ -163,11 +163,11 @@ def _paint_view(
     line_of_sight: Array,
 ) -> None:
     plane = [view.horizontal, view.vertical]
-    start = assessment.states[:, plane]
+    start = assessment.flown.states[:, plane]
     for first, second in baselines:
         axes.plot(*start[[first, second]].T, color="#bbbbbb", linewidth=0.7, zorder=1)
     for index, style in enumerate(orbit_dashes(assessment)):
-        track = assessment.orbits[:, index, plane].T
+        track = assessment.flown.orbits[:, index, plane].T
         axes.plot(*track, color=color(index), linestyle=style, linewidth=1.0, zorder=2)
         axes.plot(
             *start[index],
@@ -245,12 +245,12 @@ def _paint_space(
     )
     axes.patch.set_visible(False)
     order = [_T, _N, _R]
-    start = assessment.states[:, order]
+    start = assessment.flown.states[:, order]
     for first, second in baselines:
         axes.plot(*start[[first, second]].T, color="#bbbbbb", linewidth=0.7)
     for index, style in enumerate(orbit_dashes(assessment)):
         axes.plot(
-            *assessment.orbits[:, index, order].T,
+            *assessment.flown.orbits[:, index, order].T,
             color=color(index),
             linestyle=style,
             linewidth=1.0,

@@ -36,7 +36,7 @@ def interactive_orbits(
     baselines : those that are drawn in each formation, two satellites each.
     line_of_sight : (3,) — direction of view in the middle of the scene, RTN.
     """
-    reach = max(float(np.abs(one.orbits).max()) for one in assessments) or 1.0
+    reach = max(float(np.abs(one.flown.orbits).max()) for one in assessments) or 1.0
     groups = [_traces(one, ends) for one, ends in zip(assessments, baselines, strict=True)]
     arrows = [
         _arrow("flight direction", np.array([0.0, 1.0, 0.0]), reach, "#444444"),
@@ -98,11 +98,11 @@ def _traces(assessment: Assessment, baselines: Sequence[tuple[int, int]]) -> lis
     for index, name in enumerate(assessment.names):
         shade, shown = color(index), _in_markup(name)
         traces.append(
-            _line(assessment.orbits[:, index], shade, 4)
+            _line(assessment.flown.orbits[:, index], shade, 4)
             | {"name": shown, "legendgroup": str(index), "hovertemplate": _hover(shown)}
         )
         traces.append(
-            _points(assessment.states[index : index + 1, :3])
+            _points(assessment.flown.states[index : index + 1, :3])
             | {
                 "mode": "markers+text",
                 "marker": {"color": shade, "size": 7, "symbol": _SYMBOLS[mark_index(index)]},
@@ -114,7 +114,7 @@ def _traces(assessment: Assessment, baselines: Sequence[tuple[int, int]]) -> lis
             }
         )
     if baselines:
-        ends = assessment.states[np.array(baselines), :3]
+        ends = assessment.flown.states[np.array(baselines), :3]
         gaps = np.full((len(ends), 1, 3), np.nan)
         lines = np.concatenate([ends, gaps], axis=1).reshape(-1, 3)
         traces.append(

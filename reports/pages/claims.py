@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from insar.observe import Claim, Verdict
+from insar import Claim, Verdict
 
 from ..document import Column, Section, Status, Strong, Table, Text
 from ..reading_steering import ROUNDING
@@ -16,8 +16,9 @@ _MARKS = {
     Verdict.HOLDS: Status.NOTE,
     Verdict.FAILS: Status.BAD,
     Verdict.UNKNOWN: Status.WARNING,
+    Verdict.OPEN: Status.WARNING,
 }
-_SYMBOLS = {Verdict.HOLDS: "✓", Verdict.FAILS: "✗", Verdict.UNKNOWN: "?"}
+_SYMBOLS = {Verdict.HOLDS: "✓", Verdict.FAILS: "✗", Verdict.UNKNOWN: "?", Verdict.OPEN: "~"}
 
 
 def claims_section(claims: Sequence[Claim], inputs: str, *, digits: int = 3) -> Section | None:
@@ -33,6 +34,7 @@ def claims_section(claims: Sequence[Claim], inputs: str, *, digits: int = 3) -> 
         return None
     frame = claims_frame(claims)
     frame["computed"] = [_with_unit(claim.computed, claim.unit, digits) for claim in claims]
+    frame["possible"] = [_possible(claim, digits) for claim in claims]
     frame["agrees"] = [_agreeing(claim) for claim in claims]
     frame["note"] = [_why(claim) for claim in claims]
     frame["verdict"] = [f"{_SYMBOLS[claim.verdict]} {claim.verdict.value}" for claim in claims]
@@ -47,6 +49,7 @@ def claims_section(claims: Sequence[Claim], inputs: str, *, digits: int = 3) -> 
                     Column("printed", "Printed"),
                     Column("agrees", "Agrees if"),
                     Column("computed", f"From the {inputs}", "", list),
+                    *_possible_column(claims),
                     Column("verdict", "Verdict"),
                     Column("note", "Why"),
                 ),
@@ -67,6 +70,23 @@ def _agreeing(claim: Claim) -> str:
     if math.isinf(claim.most):
         return f"≥ {least}"
     return f"{plain(claim.least)} … {most}"
+
+
+def _possible_column(claims: Sequence[Claim]) -> tuple[Column, ...]:
+    """The range for what the source leaves open, where there is any."""
+    if all(math.isnan(claim.lowest) for claim in claims):
+        return ()
+    return (Column("possible", "Possible", "", list),)
+
+
+def _possible(claim: Claim, digits: int) -> str:
+    """Between which the computed figure lies for what is not published."""
+    if math.isnan(claim.lowest):
+        return MISSING
+    if claim.lowest == claim.highest:
+        return "no other"
+    low, high = significant(claim.lowest, digits), significant(claim.highest, digits)
+    return f"{low} … {_with(high, claim.unit)}"
 
 
 def _why(claim: Claim) -> str:
@@ -97,6 +117,8 @@ def claims_text(claims: Sequence[Claim], inputs: str) -> tuple[Text, ...]:
     tail = f" follow from the {inputs}"
     if counts[Verdict.FAILS]:
         tail += f", {counts[Verdict.FAILS]} do not"
+    if counts[Verdict.OPEN]:
+        tail += f", {counts[Verdict.OPEN]} depend on what is not published"
     if counts[Verdict.UNKNOWN]:
         tail += f", {counts[Verdict.UNKNOWN]} cannot be computed from them"
     return ((Strong(text), f"{tail}: the next section gives each with its reason."),)

@@ -120,7 +120,7 @@ def unwrapping_section(
     if ladder.unwrapping is None:
         return None
     rungs = rungs_frame(problem, ladder)
-    names = [pair_name(problem, ladder.names, rung.images) for rung in ladder.unwrapping.rungs]
+    names = [pair_name(problem, ladder, rung.images) for rung in ladder.unwrapping.rungs]
     worst = ladder.unwrapping.worst_segment + 1
     return Section(
         "unwrapping",

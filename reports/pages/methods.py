@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from insar import BaselineDecorrelation, HeldConstant, Weighting
 from insar.observe import Observation
 from insar.observe.agile.staring import StaringScene
-from optimize import Problem, SearchResult
+from optimize import Assessment, Problem, SearchResult
 
 from ..document import Block, Equation, Paragraph, Reference, References, Section, Strong, Symbol
 from .citations import Citations
@@ -74,6 +76,7 @@ def methods_section(
     *,
     search: SearchResult | None,
     observation: Observation | StaringScene | None = None,
+    formations: Sequence[Assessment] = (),
 ) -> Section:
     """Methods and references.
 
@@ -82,13 +85,11 @@ def methods_section(
     problem : whose model and limits decide what was used.
     search : the search; None where nothing was searched.
     observation : where the scene comes from; None if the study gives it.
+    formations : those of the report; where none is given, all are on orbits.
     """
     cite = Citations()
     blocks: list[Block] = [
-        Paragraph(
-            f"The satellites move as the Clohessy-Wiltshire equations say {cite(_CLOHESSY)}: "
-            "linear motion about a circular reference orbit, without perturbations."
-        ),
+        *_motion(formations, cite),
         *_geometry(observation),
         *_sensitivity(problem),
         *_height(problem, cite),
@@ -126,6 +127,36 @@ def methods_section(
             )
         )
     return Section("methods", "How it was computed", (*blocks, References(tuple(cite.works))))
+
+
+def _motion(formations: Sequence[Assessment], cite: Citations) -> tuple[Block, ...]:
+    """How the satellites move, where they do, and how acquisitions are combined."""
+    blocks = []
+    if not formations or any(one.motion is not None for one in formations):
+        blocks.append(
+            Paragraph(
+                f"The satellites move as the Clohessy-Wiltshire equations say {cite(_CLOHESSY)}: "
+                "linear motion about a circular reference orbit, without perturbations."
+            )
+        )
+    if any(one.motion is None for one in formations):
+        blocks.append(
+            Paragraph(
+                "Satellites of a table are where the study places them. A baseline is laid in the "
+                "direction in which a rising target moves at constant range and Doppler; its part "
+                "along the line of sight changes no sensitivity."
+            )
+        )
+    if any(one.acquisitions for one in formations):
+        blocks.append(
+            Paragraph(
+                "Acquisitions are combined by their images: each measures phases against a "
+                "reference of its own, with noise and errors of its own, and the height is common. "
+                "The unwrapping ladder may join interferograms of two acquisitions, whose "
+                "difference has a longer height of ambiguity than either."
+            )
+        )
+    return tuple(blocks)
 
 
 def _geometry(observation: Observation | StaringScene | None) -> tuple[Block, ...]:

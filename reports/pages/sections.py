@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 
 import pandas as pd
 
@@ -38,17 +39,20 @@ from ..tables import (
     comparison_frame,
     constraints_frame,
     formation_frame,
+    placed_frame,
     region_frame,
     shares_frame,
 )
 from ..wording import (
     counted,
+    fixed,
     formation_name,
     percent,
     significant,
     to_decimals,
     to_digits,
     to_probabilities,
+    to_span,
 )
 from .interferometry import OVER_CRITICAL
 from .limits import limit_text, margin_text, value_text
@@ -83,7 +87,7 @@ def formation_section(problem: Problem, formations: Sequence[Shown]) -> Section:
             "normal. R and Ṙ are the design variables z₀ and ż₀."
         )
     ]
-    blocks += [_formation_table(shown.assessment) for shown in formations]
+    blocks += [formation_table(shown.assessment) for shown in formations]
     middle = problem.scene.line_of_sight[len(problem.scene) // 2]
     baselines = [drawn_baselines(problem, shown.assessment) for shown in formations]
     assessments = [shown.assessment for shown in formations]
@@ -113,7 +117,8 @@ def _lines(baselines: Baselines) -> str:
     return f", gray lines {baselines.words}"
 
 
-def _formation_table(assessment: Assessment) -> Table:
+def formation_table(assessment: Assessment) -> Table:
+    """States of satellites at t = 0."""
     meters_, rates = to_decimals(2), to_decimals(4)
     return Table(
         formation_frame([assessment]),
@@ -289,4 +294,21 @@ def comparison_section(best: Assessment, others: Sequence[Assessment]) -> Sectio
         "Formations side by side, all assessed with the same model and limits.",
         tuple(Status.BAD if reports else Status.NOTE for reports in failures),
     )
-    return Section("comparison", "Comparison", (table, *(_formation_table(one) for one in others)))
+    shown = [formation_table(one) if one.motion else placed_table(one) for one in others]
+    return Section("comparison", "Comparison", (table, *shown))
+
+
+def placed_table(assessment: Assessment) -> Table:
+    """Positions of satellites that follow no known orbit."""
+    tenths = to_span(partial(fixed, decimals=1))
+    return Table(
+        placed_frame(assessment),
+        (
+            Column("satellite", "Satellite"),
+            Column("r_m", "R", "m", tenths),
+            Column("t_m", "T", "m", tenths),
+            Column("n_m", "N", "m", tenths),
+        ),
+        f"Positions of the {formation_name(assessment.label)} in the middle segment; of one that "
+        "changes over the scene, the smallest and the largest (every segment: positions.csv).",
+    )

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from insar.observe import Verdict
+from insar import Verdict
 from insar.observe.agile.spotlight_results import SpotlightResult
 
 from ..agile_words import heading_name, pointing_reason, side_name

@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from insar.observe import CaseResult, Law, SteeringResult, Verdict
+from insar import Verdict
+from insar.observe import CaseResult, Law, SteeringResult
 
 from ..document import Block, Callout, Metric, Metrics, Status, Strong, Text
 from ..reading_steering import ROUNDING, LawRecord, curves_of, exact_laws, records

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from insar.simulation import Verdict
 from optimize import Assessment, EvaluateResult, OptimizeResult, Problem
 
@@ -29,8 +31,12 @@ from ..wording import (
     quantity,
     source_name,
 )
+from .claims import claims_text
 from .limits import shortfall_text
 from .refutation import STATUS
+
+INPUTS = "inputs of this study"
+"""What printed figures of a mission are compared with."""
 
 _DOUBTFUL_PROBABILITY = 0.9
 """Probability of unwrapping below which a verdict without a limit on it is a warning."""
@@ -87,6 +93,7 @@ def evaluate_verdict(result: EvaluateResult, unseen: int = 0) -> tuple[Block, ..
         status = Status.GOOD if formation.feasible else Status.BAD
         paragraphs = [_achieved(formation, unseen)]
     paragraphs += _remarks(result.problem, formation)
+    paragraphs += claims_text(result.claims, INPUTS)
     if status is Status.GOOD and (unseen > 0 or _doubtful(result.problem, formation)):
         status = Status.WARNING
     status, title = _unless_refuted(formation, status, title)
@@ -270,7 +277,8 @@ def _metrics(problem: Problem, formation: Assessment, unseen: int) -> Metrics:
                 "Simulation", VERDICTS[verdict], f"gains {gained} over the prior", STATUS[verdict]
             )
         )
-    separation = float(formation.separations.min()) if formation.separations.size else math.nan
+    separations = np.empty(0) if formation.motion is None else formation.motion.separations
+    separation = float(separations.min()) if separations.size else math.nan
     if math.isfinite(separation):
         items.append(Metric("Closest approach", meters(separation), "any two, at any time"))
     count, kept = len(formation.constraints), len(formation.constraints) - len(broken(formation))

@@ -10,8 +10,7 @@ from enum import StrEnum
 import numpy as np
 from numpy.typing import NDArray
 
-from ..studies.claims import Relation, agreeing, verdict
-from ..studies.results import Claim
+from ...claims import Claim, PrintedFigure, judged
 from .spotlight_results import SpotlightResult
 
 Array = NDArray[np.float64]
@@ -38,31 +37,15 @@ class SpotlightQuantity(StrEnum):
 
 
 @dataclass(frozen=True, kw_only=True)
-class SpotlightClaim:
-    """A printed figure, and what to compute for it.
+class SpotlightClaim(PrintedFigure):
+    """A printed figure of spotlight, and what to compute for it.
 
     Parameters
     ----------
-    text : what is claimed.
-    printed : how the source prints it, with its unit.
     quantity : what to compute.
-    value : printed figure, SI.
-    tolerance : by which the computed figure may miss it, SI.
-    relation : how the figure limits the quantity.
-    unit : of the claim, as the report shows it.
-    scale : one such unit, SI.
-    note : why, in words.
     """
 
-    text: str
-    printed: str
     quantity: SpotlightQuantity
-    value: float
-    tolerance: float = 0.0
-    relation: Relation = Relation.EQUALS
-    unit: str = ""
-    scale: float = 1.0
-    note: str = ""
 
 
 def judge_spotlight(claim: SpotlightClaim, result: SpotlightResult) -> Claim:
@@ -77,18 +60,7 @@ def judge_spotlight(claim: SpotlightClaim, result: SpotlightResult) -> Claim:
     -------
     Claim — not computable if the beam cannot be pointed at some sample.
     """
-    value = _MEASURES[claim.quantity](result)
-    least, most = agreeing(claim.value, relation=claim.relation, tolerance=claim.tolerance)
-    return Claim(
-        text=claim.text,
-        printed=claim.printed,
-        computed=value / claim.scale,
-        unit=claim.unit,
-        verdict=verdict(value, claim.value, relation=claim.relation, tolerance=claim.tolerance),
-        note=claim.note,
-        least=least / claim.scale,
-        most=most / claim.scale,
-    )
+    return judged(claim, _MEASURES[claim.quantity](result))
 
 
 def _range(angles: Array) -> float:

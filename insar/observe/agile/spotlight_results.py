@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from formation import Trajectory
 
+from ...claims import Claim
 from ...scene import LookSide
 from ..scenes.passes import Direction
-from ..studies.results import Claim
 from .agility import Agility
 from .plans import SpotlightPlan
 from .profiles import Profile

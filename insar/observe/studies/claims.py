@@ -10,18 +10,17 @@ from enum import StrEnum
 import numpy as np
 from numpy.typing import NDArray
 
+from ...claims import Claim, PrintedFigure, judged
 from ..steering import Law, Outcome
 from .claim_reasons import why_no_crossover, why_outside, why_unsolved
 from .compensation import deviation
 from .results import (
     CaseResult,
-    Claim,
     Compensation,
     Effect,
     Held,
     LawCurves,
     Selection,
-    Verdict,
 )
 
 Array = NDArray[np.float64]
@@ -54,35 +53,19 @@ class Quantity(StrEnum):
     """Largest deviation of the simplified range rate per unit of eccentricity."""
 
 
-class Relation(StrEnum):
-    """How a printed figure limits the computed one."""
-
-    EQUALS = "equals"
-    AT_MOST = "at_most"
-    AT_LEAST = "at_least"
-
-
 @dataclass(frozen=True, kw_only=True)
-class ClaimSpec:
-    """A printed figure, and what to compute for it.
+class ClaimSpec(PrintedFigure):
+    """A printed figure of steering, and what to compute for it.
 
     Parameters
     ----------
-    text : what is claimed.
-    printed : how the source prints it, with its unit.
     quantity : what to compute.
-    value : printed figure, SI.
-    tolerance : by which the computed figure may miss it, SI.
-    relation : how the figure limits the quantity.
-    unit : of the claim, as the report shows it; empty for none.
-    scale : one such unit, SI.
     case : name of the case, for the quantities of a case.
     law, other_law : steering laws, for the quantities that need them.
     rate : slew rate, for `SLEW_TIME` [rad/s].
     held, inclination : of the selection, for `CROSSOVER_ALTITUDE` [-, rad].
     effect, argument_of_perigee : for `COMPENSATION`; the worst of all arguments if None [-, rad].
     eccentricity : for `COMPENSATION`, instead of the effect: where to read the sweep.
-    note : why, in words.
 
     Raises
     ------
@@ -90,14 +73,7 @@ class ClaimSpec:
         If something that the quantity needs is missing.
     """
 
-    text: str
-    printed: str
     quantity: Quantity
-    value: float
-    tolerance: float = 0.0
-    relation: Relation = Relation.EQUALS
-    unit: str = ""
-    scale: float = 1.0
     case: str | None = None
     law: Law | None = None
     other_law: Law | None = None
@@ -107,7 +83,6 @@ class ClaimSpec:
     effect: Effect | None = None
     eccentricity: float | None = None
     argument_of_perigee: float | None = None
-    note: str = ""
 
     def __post_init__(self) -> None:
         if self.quantity is Quantity.COMPENSATION:
@@ -170,21 +145,11 @@ def judge(
         raise ValueError(f"the claim {claim.text!r} needs a compensation; add one to the study")
     else:
         value = _of_compensation(claim, compensation)
-    least, most = agreeing(claim.value, relation=claim.relation, tolerance=claim.tolerance)
     note = claim.note
     if math.isnan(value):
         reason = _reason(claim, cases, selections, compensation)
         note = f"{reason} {note}".strip()
-    return Claim(
-        text=claim.text,
-        printed=claim.printed,
-        computed=value / claim.scale,
-        unit=claim.unit,
-        verdict=verdict(value, claim.value, relation=claim.relation, tolerance=claim.tolerance),
-        note=note,
-        least=least / claim.scale,
-        most=most / claim.scale,
-    )
+    return judged(claim, value, note=note)
 
 
 def _reason(
@@ -203,37 +168,6 @@ def _reason(
     if compensation is None or claim.eccentricity is None:
         return ""
     return why_outside(claim.eccentricity, compensation)
-
-
-def verdict(computed: float, printed: float, *, relation: Relation, tolerance: float) -> Verdict:
-    """Whether a computed figure agrees with a printed one, all in one unit.
-
-    Parameters
-    ----------
-    computed : scalar; NaN if it cannot be computed.
-    printed : scalar.
-    relation : how the printed figure limits the computed one.
-    tolerance : by which the computed one may miss it.
-    """
-    if math.isnan(computed):
-        return Verdict.UNKNOWN
-    above = computed - printed
-    miss = {Relation.EQUALS: abs(above), Relation.AT_MOST: above, Relation.AT_LEAST: -above}
-    return Verdict.HOLDS if miss[relation] <= tolerance else Verdict.FAILS
-
-
-def agreeing(printed: float, *, relation: Relation, tolerance: float) -> tuple[float, float]:
-    """Between which a computed figure agrees with a printed one, all in one unit.
-
-    Parameters
-    ----------
-    printed : scalar.
-    relation : how the printed figure limits the computed one.
-    tolerance : by which the computed one may miss it.
-    """
-    least = -math.inf if relation is Relation.AT_MOST else printed - tolerance
-    most = math.inf if relation is Relation.AT_LEAST else printed + tolerance
-    return least, most
 
 
 # -- of a case -----------------------------------------------------------------------------------

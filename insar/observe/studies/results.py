@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import NamedTuple
@@ -12,6 +11,7 @@ from numpy.typing import NDArray
 
 from formation import Trajectory
 
+from ...claims import Claim
 from ...scene import LookSide
 from ..boresight import Boresight
 from ..steering import Law
@@ -234,39 +234,6 @@ class Compensation:
     sweep: Array
     sweep_rms: Array
     sweep_deviation: Array
-
-
-class Verdict(StrEnum):
-    """Whether a printed figure follows from the stated inputs."""
-
-    HOLDS = "holds"
-    FAILS = "does not hold"
-    UNKNOWN = "not computable"
-
-
-class Claim(NamedTuple):
-    """A printed figure and what the stated inputs give.
-
-    Attributes
-    ----------
-    text : what is claimed.
-    printed : how the source prints it, with its unit.
-    computed : what the stated inputs give, in the unit of the claim; NaN if not computable.
-    unit : its unit; empty for none.
-    verdict : by the tolerance that the study states.
-    note : why, in words; may be empty.
-    least, most : between which the computed figure agrees, by the tolerance, in the unit of the
-        claim; infinite where there is no limit.
-    """
-
-    text: str
-    printed: str
-    computed: float
-    unit: str
-    verdict: Verdict
-    note: str
-    least: float = -math.inf
-    most: float = math.inf
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
