@@ -25,6 +25,7 @@ QuantityName = Literal[
     "absolute_error_90",
     "relative_error_90",
     "unwrapping_probability",
+    "baseline_steadiness",
 ]
 
 
@@ -58,6 +59,7 @@ UNITS: dict[QuantityName, MissionUnit] = {
     "absolute_error_90": MissionUnit("m", error=True),
     "relative_error_90": MissionUnit("m", error=True),
     "unwrapping_probability": MissionUnit(""),
+    "baseline_steadiness": MissionUnit("%", 0.01),
 }
 """Unit of each quantity of a claim."""
 
@@ -71,7 +73,8 @@ class MissionClaimBlock(PrintedBlock):
         "(meters for each millimeter along the line of sight) and tilt_per_baseline_error (mm/km "
         "for each millimeter) of a pair; height_error, relative_error (one standard deviation), "
         "absolute_error_90 and relative_error_90 (of two points, with 90 %) in meters, and "
-        "unwrapping_probability, of a formation."
+        "unwrapping_probability and baseline_steadiness (how much the longest perpendicular "
+        "baseline changes over the segments, from its middle, in percent) of a formation."
     )
     formation: Label | None = Field(
         default=None,

@@ -17,6 +17,7 @@ sys.path.insert(0, str(DOCS))
 from tables import (  # noqa: E402 — found beside this file
     error_model,
     li2009,
+    missions,
     orbits,
     phase_statistics,
     spotlight,
@@ -36,6 +37,7 @@ _MODULES = (
     orbits,
     spotlight,
     video,
+    missions,
 )
 TABLES = {name: table for module in _MODULES for name, table in module.TABLES.items()}
 

@@ -47,6 +47,9 @@ class FormationQuantity(StrEnum):
     RELATIVE_ERROR_90 = "relative_error_90"
     """The same of the difference of two points: 1.645 √2 σ of the relative error."""
     UNWRAPPING_PROBABILITY = "unwrapping_probability"
+    BASELINE_STEADINESS = "baseline_steadiness"
+    """Of the longest perpendicular baseline over the segments: half the difference of its largest
+    and smallest over their mean."""
 
     @property
     def of_pair(self) -> bool:
@@ -171,12 +174,19 @@ def _values(claim: FormationClaim, problem: Problem, one: Assessment) -> Array:
     if claim.quantity is FormationQuantity.UNWRAPPING_PROBABILITY:
         unwrapping = one.unwrapping
         return np.full(len(problem.scene), np.nan) if unwrapping is None else unwrapping.probability
+    if claim.quantity is FormationQuantity.BASELINE_STEADINESS:
+        return np.full(len(problem.scene), _steadiness(one))
     return {
         FormationQuantity.HEIGHT_ERROR: error.total,
         FormationQuantity.RELATIVE_ERROR: error.relative,
         FormationQuantity.ABSOLUTE_ERROR_90: GAUSSIAN_90 * error.total,
         FormationQuantity.RELATIVE_ERROR_90: GAUSSIAN_90 * math.sqrt(2.0) * error.relative,
     }[claim.quantity]
+
+
+def _steadiness(one: Assessment) -> float:
+    longest = np.max([np.abs(pair.perpendicular_baseline) for pair in one.pairs], axis=0)
+    return float((longest.max() - longest.min()) / (longest.max() + longest.min()))
 
 
 def _pair(claim: FormationClaim, problem: Problem, one: Assessment) -> ImagePair:

@@ -302,13 +302,20 @@ def test_a_state_is_taken_as_it_is_and_in_the_order_of_the_study():
 
 def test_the_shipped_examples_are_these():
     assert example_names() == (
+        "cartwheel",
         "evaluate_example",
         "four_sat",
         "han2016_spotlight",
+        "hongtu_1",
         "li2009_ground_track",
         "li2009_space",
         "liang2018_video",
+        "lutan_1",
         "meng2003_yaw",
+        "srtm_x",
+        "tandem_l",
+        "tandem_x",
+        "tandem_x_helix",
         "terrasar_x",
         "three_sat",
         "three_sat_real",

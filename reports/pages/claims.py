@@ -93,6 +93,8 @@ def _why(claim: Claim) -> str:
     """The note of the study; that there is none where one is missed."""
     if claim.note or claim.verdict is Verdict.HOLDS:
         return claim.note
+    if claim.verdict is Verdict.OPEN:
+        return "What is not published decides."
     return "The study gives no reason."
 
 
