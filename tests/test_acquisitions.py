@@ -223,8 +223,8 @@ def test_baselines_are_laid_across_the_line_of_sight():
 def test_fixed_positions_are_taken_as_they_are():
     """The boom of SRTM: 60 m at 45°, look 51.77° (incidence 54.5°) from 233 km.
 
-    The height of ambiguity by hand: r = 386.7 km, B⊥ = 60 cos(51.77° − 45°) = 59.58 m, so
-    0.031 × 386.7e3 × sin 54.5° / 59.58 = 163.8 m; 164 to 175 m are printed.
+    The height of ambiguity by hand: r = 388.4 km, B⊥ = 60 cos(51.77° − 45°) = 59.58 m, so
+    0.031 × 388.4e3 × sin 54.51° / 59.58 = 164.5 m; 164 to 175 m are printed.
     """
     half = 60.0 / math.sqrt(2.0)
     result = outcome(
@@ -234,7 +234,7 @@ def test_fixed_positions_are_taken_as_they_are():
     )
     (pair,) = result.formation.pairs
     assert_allclose(pair.perpendicular_baseline, 59.58, atol=0.01)
-    assert_allclose(pair.height_of_ambiguity, 163.8, atol=0.5)
+    assert_allclose(pair.height_of_ambiguity, 164.5, atol=0.1)
     assert_allclose(result.formation.scene_positions[:, 1], [[half, 0.0, half]] * 2)
 
 

@@ -29,6 +29,7 @@ GENERATED = [
     "li2009.md",
     "liang2018.md",
     "meng2003.md",
+    "missions.md",
     "orbits.md",
     "phase_statistics.md",
     "steering.md",
