@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -78,6 +79,7 @@ def point_to_point_factor(
     looks: ArrayLike,
     pairs: NDArray[np.intp],
     level: float = 0.9,
+    quantile: Callable[..., Array] = difference_quantile,
 ) -> Array:
     """Bound of the point-to-point error over the random deviation of one point.
 
@@ -87,6 +89,8 @@ def point_to_point_factor(
     coherence, looks : (..., S, K) — of each pair of images, as from `pair_coherence`.
     pairs : (K, 2) — the images of each pair, `Radar.image_pairs`.
     level : scalar — share of the pairs of points that keep the bound, between 0 and 1.
+    quantile : of the difference of two phases; `statistics.quick.quick_difference_quantile` is
+        much faster for many pairs, within 1e-3.
 
     Returns
     -------
@@ -115,7 +119,8 @@ def point_to_point_factor(
     gamma, number = np.where(told, gamma, 0.5), np.where(told, number, 1.0)
     assumed = np.sqrt(pair_phase_variance(gamma, looks=number))
     factor = np.full(told.shape, _normal(level))
-    factor[told] = difference_quantile(gamma[told], looks=number[told], level=level) / assumed[told]
+    exact = quantile(gamma[told], looks=number[told], level=level)
+    factor[told] = exact / assumed[told]
     share = np.where(told, weight, 0.0)
     total = np.sum(share, axis=-1)
     mean = np.sum(share * factor**2, axis=-1) / np.where(total > 0.0, total, 1.0)

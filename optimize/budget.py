@@ -24,6 +24,7 @@ class BudgetItem(NamedTuple):
     name : of the item.
     unit : of its value; empty for a pure number.
     value : as it is.
+    better : +1 if more of it is better, −1 if less, 0 if either may be.
     changed : problem and states with the item multiplied by a factor; raises ValueError where it
         can't be.
     """
@@ -31,6 +32,7 @@ class BudgetItem(NamedTuple):
     name: str
     unit: str
     value: float
+    better: int
     changed: Callable[[float], tuple[Problem, Array]]
 
 
@@ -48,8 +50,8 @@ def budget_items(problem: Problem, states: ArrayLike) -> tuple[BudgetItem, ...]:
         return lambda factor: (make(factor), state)
 
     items = [
-        BudgetItem(name, unit, value, of_problem(make))
-        for name, unit, value, make in (
+        BudgetItem(name, unit, value, better, of_problem(make))
+        for name, unit, value, better, make in (
             *_of_radar(problem),
             *_of_errors(problem),
             *_of_calibration(problem),
@@ -63,6 +65,7 @@ def budget_items(problem: Problem, states: ArrayLike) -> tuple[BudgetItem, ...]:
                 "prior_height",
                 "m",
                 prior,
+                -1,
                 of_problem(
                     lambda f: replace(
                         problem,
@@ -71,22 +74,23 @@ def budget_items(problem: Problem, states: ArrayLike) -> tuple[BudgetItem, ...]:
                 ),
             )
         )
-    items.append(BudgetItem("baselines", "", 1.0, lambda factor: (problem, factor * state)))
+    items.append(BudgetItem("baselines", "", 1.0, 0, lambda factor: (problem, factor * state)))
     return tuple(items)
 
 
-_Change = tuple[str, str, float, Callable[[float], Problem]]
+_Change = tuple[str, str, float, int, Callable[[float], Problem]]
 
 
 def _of_radar(problem: Problem) -> list[_Change]:
     radar = problem.radar
     return [
-        ("snr", "", radar.snr, lambda f: _with_radar(problem, snr=f * radar.snr)),
-        ("looks", "", radar.looks, lambda f: _with_radar(problem, looks=f * radar.looks)),
+        ("snr", "", radar.snr, 1, lambda f: _with_radar(problem, snr=f * radar.snr)),
+        ("looks", "", radar.looks, 1, lambda f: _with_radar(problem, looks=f * radar.looks)),
         (
             "slant_range_resolution",
             "m",
             radar.slant_range_resolution,
+            0,
             lambda f: _with_radar(problem, slant_range_resolution=f * radar.slant_range_resolution),
         ),
     ]
@@ -111,7 +115,7 @@ def _of_errors(problem: Problem) -> list[_Change]:
         return lambda f: _with_errors(problem, **{name: source._replace(std=f * source.std)})
 
     changes: list[_Change] = [
-        (name, unit, getattr(errors, name).std, scaled(name)) for name, unit in units.items()
+        (name, unit, getattr(errors, name).std, -1, scaled(name)) for name, unit in units.items()
     ]
     ionosphere = errors.ionosphere
     if ionosphere is not None:
@@ -120,6 +124,7 @@ def _of_errors(problem: Problem) -> list[_Change]:
                 "ionosphere",
                 "1/m2",
                 ionosphere.electrons,
+                -1,
                 lambda f: _with_errors(problem, ionosphere=_thinner(ionosphere, f)),
             )
         )
@@ -156,8 +161,9 @@ def _of_calibration(problem: Problem) -> list[_Change]:
             "calibration_spacing",
             "m",
             calibration.spacing_across,
+            -1,
             scaled("spacing_across", "spacing_along"),
         ),
-        ("calibration_accuracy", "m", calibration.accuracy, scaled("accuracy")),
-        ("calibration_bias", "m", calibration.bias, scaled("bias")),
+        ("calibration_accuracy", "m", calibration.accuracy, -1, scaled("accuracy")),
+        ("calibration_bias", "m", calibration.bias, -1, scaled("bias")),
     ]

@@ -201,7 +201,7 @@ def remedies(study: Study, quantity: Quantity, limit: ArrayLike) -> tuple[Remedy
     start = float(np.max(quantities(study.problem, study.states, study.cell)[quantity] / allowed))
     found: list[tuple[float, Remedy]] = []
     for item in study.items:
-        factor, changes = _nearest(_ratio(study, item, quantity, allowed), start)
+        factor, changes = _nearest(_ratio(study, item, quantity, allowed), start, item.better)
         if not changes:
             continue
         probability = None if factor is None else _probability(study, item, factor)
@@ -224,12 +224,14 @@ def _ratio(
     return ratio
 
 
-def _nearest(ratio: Callable[[float], float], start: float) -> tuple[float | None, bool]:
+def _nearest(
+    ratio: Callable[[float], float], start: float, better: int
+) -> tuple[float | None, bool]:
     """Factor nearest to 1 at which a ratio is 1, and whether the ratio changes at all."""
     grid = np.linspace(0.0, math.log(REACH), _SCAN + 1)[1:]
     best: float | None = None
     changes = False
-    for side in (-1.0, 1.0):
+    for side in (-1.0, 1.0) if better == 0 else (float(better),):
         before = 0.0
         for step in grid:
             here = side * float(step)
