@@ -18,6 +18,7 @@ from .baselines import (
 from .calibration import Calibration
 from .claims import Claim, PrintedFigure, Relation, Verdict, judged, judged_range
 from .coherence import common_band, snr_coherence
+from .dataset import to_xarray
 from .errors import (
     BaselineDecorrelation,
     ErrorBudget,
@@ -89,6 +90,7 @@ __all__ = [
     "point_to_point_factor",
     "scene_critical_baseline",
     "snr_coherence",
+    "to_xarray",
     "two_baseline_probability",
     "unwrapping_ladder",
     "unwrapping_probability",

@@ -28,7 +28,19 @@ def python(code: str) -> str:
 @pytest.mark.parametrize(
     ("module", "absent"),
     [
-        ("insar", ["formation", "optimize", "deap", "cvxpy", "matplotlib", "pandas", "pydantic"]),
+        (
+            "insar",
+            [
+                "formation",
+                "optimize",
+                "deap",
+                "cvxpy",
+                "matplotlib",
+                "pandas",
+                "pydantic",
+                "xarray",
+            ],
+        ),
         ("formation", ["insar", "optimize", "deap", "scipy", "matplotlib", "pandas"]),
         ("formation_opt.cli", ["numpy", "scipy", "deap", "matplotlib", "pandas", "pydantic"]),
         ("configs", ["deap", "scipy", "optimize", "matplotlib", "pandas"]),
