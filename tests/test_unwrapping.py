@@ -18,13 +18,15 @@ from insar import (
     Radar,
     Scene,
     SharedBy,
+    decorrelated_unwrapping,
     one_transmitter,
     phase_model,
+    try_unwrapping,
     two_baseline_probability,
     unwrapping_ladder,
     unwrapping_probability,
 )
-from insar.unwrapping import bootstrap_failure
+from insar.unwrapping import bootstrap_failure, float_covariance, success_ceiling
 
 SCENE = Scene.broadside_strip(
     times=[0.0], look_angle=np.deg2rad(23), altitude=514e3, earth_radius=6_378_137.0
@@ -84,7 +86,7 @@ def test_one_rung_is_the_prior_against_the_height_of_ambiguity():
         assert result[0] == pytest.approx(expected, rel=1e-9)
 
 
-def float_covariance(model, prior):
+def written_out_covariance(model, prior):
     """Covariance of the image phases relative to the first [cycles²], written out."""
     count = model.vertical_wavenumber.shape[-1]
     covariance = np.zeros((count, count))
@@ -98,7 +100,7 @@ def float_covariance(model, prior):
 
 def bootstrap_in_order(model, prior, order):
     """Fix the cycle differences of images joined in a given order, by plain conditioning."""
-    covariance = float_covariance(model, prior)
+    covariance = written_out_covariance(model, prior)
     count = len(covariance)
     difference = np.zeros((count - 1, count))
     for row, (one, two) in enumerate(itertools.pairwise(order)):
@@ -135,7 +137,7 @@ def test_the_pairs_of_the_rungs_explain_their_deviations(baselines):
     for row, (one, two) in enumerate(ladder.pairs[0]):
         difference[row, one], difference[row, two] = -1, 1
     assert np.linalg.matrix_rank(difference) == count - 1
-    covariance = difference @ float_covariance(model, 4.0) @ difference.T
+    covariance = difference @ written_out_covariance(model, 4.0) @ difference.T
     expected = np.diag(np.linalg.cholesky(covariance))
     assert_allclose(ladder.cycle_std[0], expected, rtol=1e-5)
 
@@ -212,3 +214,105 @@ def test_batches_equal_single_designs():
     single = [unwrapping_probability(p, SCENE, **arguments) for p in positions]
     assert_allclose(batch, single, rtol=1e-9)
     assert isinstance(phase_model(positions, SCENE, radar=radar_for(4), errors=BUDGET), PhaseModel)
+
+
+# -- decorrelation -------------------------------------------------------------------------------
+
+FOUR = [0.0, 200.0, 800.0, 1900.0]
+
+
+def model_of(baselines):
+    radar = radar_for(len(baselines))
+    return phase_model(ladder_positions(baselines), SCENE, radar=radar, errors=BUDGET)
+
+
+def test_four_satellites_fail_nine_times_less_often_decorrelated():
+    model = model_of(FOUR)
+    ladder = unwrapping_ladder(model, prior_height_std=4.0)
+    decorrelated = decorrelated_unwrapping(model, prior_height_std=4.0)
+    assert ladder.failure[0] == pytest.approx(1.5e-3, rel=0.04)
+    assert decorrelated.failure[0] == pytest.approx(1.7e-4, rel=0.04)
+
+
+@given(st.lists(st.floats(-1500, 1500), min_size=1, max_size=6, unique=True), st.floats(1.0, 10.0))
+def test_decorrelation_is_unimodular_and_never_worse(baselines, prior):
+    model = model_of([0.0, *baselines])
+    ladder = unwrapping_ladder(model, prior_height_std=prior)
+    result = decorrelated_unwrapping(model, prior_height_std=prior, ladder=ladder)
+    assert result.failure[0] <= ladder.failure[0] * (1 + 1e-6) + 1e-13
+    assert result.probability[0] <= result.ceiling[0] + 1e-12
+    combinations = result.combinations[0]
+    assert abs(np.linalg.det(combinations[:, 1:])) == pytest.approx(1.0, abs=1e-6)
+    assert np.all(combinations.sum(axis=-1) == 0)
+    # The factors are those of the combinations' covariance.
+    covariance = combinations @ float_covariance(model, prior)[0] @ combinations.T
+    expected = np.diag(np.linalg.cholesky(covariance))
+    assert_allclose(result.cycle_std[0], expected, rtol=1e-4)
+    assert np.all(np.abs(np.tril(result.gain[0], -1)) <= 0.5 + 1e-9)
+
+
+def brute_force_reduction(covariance, reach):
+    """Best bootstrapped probability of two ambiguities over all small unimodular combinations."""
+    best = 1.0
+    whole = range(-reach, reach + 1)
+    for a, b, c, d in itertools.product(whole, repeat=4):
+        if abs(a * d - b * c) == 1:
+            transform = np.array([[a, b], [c, d]])
+            factor = np.linalg.cholesky(transform @ covariance @ transform.T)
+            best = min(best, float(bootstrap_failure(np.diag(factor))))
+    return best
+
+
+@pytest.mark.parametrize("baselines", [[0, 330, 1400], [0, 900, 1300], [0, 450, 1100]])
+def test_of_two_ambiguities_no_combination_is_better(baselines):
+    model = model_of(baselines)
+    result = decorrelated_unwrapping(model, prior_height_std=4.0)
+    best = brute_force_reduction(float_covariance(model, 4.0)[0, 1:, 1:], 5)
+    assert result.failure[0] <= best * (1 + 1e-6)
+
+
+@pytest.mark.parametrize("baselines", [[0, 330, 1700], [0, 300, 1000, 2300]])
+def test_predicted_failure_is_that_of_drawn_phases(baselines):
+    model = model_of(baselines)
+    result = decorrelated_unwrapping(model, prior_height_std=7.0)
+    trial = try_unwrapping(
+        model, result, prior_height_std=7.0, samples=300_000, rng=np.random.default_rng(11)
+    )
+    assert result.failure[0] > 1e-3  # enough failures to count
+    assert abs(trial.failure[0] - result.failure[0]) < 4 * trial.sampling_error[0]
+    again = try_unwrapping(
+        model, result, prior_height_std=7.0, samples=300_000, rng=np.random.default_rng(11)
+    )
+    assert again.failure == trial.failure
+
+
+def test_integer_least_squares_lies_between_bootstrapping_and_the_ceiling():
+    """Two ambiguities, the nearest integer in the metric of Q by trying all neighbors."""
+    rng = np.random.default_rng(3)
+    model = model_of([0.0, 330.0, 1700.0])
+    result = decorrelated_unwrapping(model, prior_height_std=7.0)
+    covariance = float_covariance(model, 7.0)[0, 1:, 1:]
+    transform = result.combinations[0][:, 1:]
+    reduced = transform @ covariance @ transform.T
+    floats = rng.multivariate_normal([0, 0], reduced, size=200_000)
+    inverse = np.linalg.inv(reduced)
+    distances = [
+        np.einsum("ni,ij,nj->n", floats - shift, inverse, floats - shift)
+        for shift in itertools.product(range(-3, 4), repeat=2)
+    ]
+    success = np.mean(np.argmin(distances, axis=0) == 24)  # the shift (0, 0) is the middle one
+    sampling = 4 * np.sqrt(0.25 / len(floats)) * 2 * np.sqrt(result.failure[0])
+    assert result.probability[0] - sampling <= success <= result.ceiling[0] + sampling
+
+
+def test_one_ambiguity_meets_its_ceiling():
+    assert success_ceiling(np.array([0.3])) == pytest.approx(2 * norm.cdf(0.5 / 0.3) - 1)
+
+
+def test_drawing_needs_samples():
+    model = model_of([0.0, 330.0])
+    result = decorrelated_unwrapping(model, prior_height_std=4.0)
+    with pytest.raises(ValueError, match="samples = 0"):
+        try_unwrapping(
+            model, result, prior_height_std=4.0, samples=0, rng=np.random.default_rng(1)
+        )

@@ -1,4 +1,4 @@
-"""Can the phase be unwrapped? Integer bootstrapping along the ladder of baselines."""
+"""Integer bootstrapping along the ladder of baselines, one pair of images after the other."""
 
 from __future__ import annotations
 
@@ -8,16 +8,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.special import erf, erfc
 
-from .errors import ErrorBudget
-from .phase_model import PhaseModel, phase_model
-from .radar import Radar
-from .scene import Scene
+from ..errors import ErrorBudget
+from ..phase_model import PhaseModel, phase_model
+from ..radar import Radar
+from ..scene import Scene
+from .float_covariance import float_covariance
 
 Array = NDArray[np.float64]
-
-_UNMEASURED_PHASE_STD = 1e6
-"""Phase deviation given to an image that shares no band with another [rad]: as good as infinite
-(its rung succeeds with probability 1e-6), yet an invertible matrix."""
 
 
 class UnwrappingLadder(NamedTuple):
@@ -88,7 +85,7 @@ def unwrapping_ladder(model: PhaseModel, *, prior_height_std: float) -> Unwrappi
     Teunissen 1998, doi:10.1007/s001900050199: P = Π(2Φ(1/(2σ_i)) − 1) over the conditional
     deviations σ_i [cycles]. The greedy order minimizes the worst rung.
     """
-    covariance = _float_covariance(model, prior_height_std)
+    covariance = float_covariance(model, prior_height_std)
     lead, count = covariance.shape[:-2], covariance.shape[-1]
     covariance = covariance.reshape(-1, count, count)
     case, index = np.arange(len(covariance)), np.arange(count)
@@ -174,17 +171,3 @@ def two_baseline_probability(
         - 2.0 * rho * np.asarray(covariance, dtype=np.float64)
     )
     return np.asarray(erf(np.pi / np.sqrt(2.0 * variance)))
-
-
-def _float_covariance(model: PhaseModel, prior_height_std: float) -> Array:
-    """Covariance (..., M, M) of the image phases relative to the first [cycles²]."""
-    kz = model.vertical_wavenumber
-    relative = np.zeros_like(model.information)
-    index = np.arange(kz.shape[-1] - 1)
-    noise = model.information[..., 1:, 1:].copy()
-    noise[..., index, index] += _UNMEASURED_PHASE_STD**-2
-    relative[..., 1:, 1:] = np.linalg.inv(noise)
-    for factor in model.nuisance.values():
-        relative += factor @ np.swapaxes(factor, -1, -2)
-    relative += prior_height_std**2 * kz[..., :, None] * kz[..., None, :]
-    return relative / (2.0 * np.pi) ** 2
