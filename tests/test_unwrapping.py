@@ -313,6 +313,4 @@ def test_drawing_needs_samples():
     model = model_of([0.0, 330.0])
     result = decorrelated_unwrapping(model, prior_height_std=4.0)
     with pytest.raises(ValueError, match="samples = 0"):
-        try_unwrapping(
-            model, result, prior_height_std=4.0, samples=0, rng=np.random.default_rng(1)
-        )
+        try_unwrapping(model, result, prior_height_std=4.0, samples=0, rng=np.random.default_rng(1))
