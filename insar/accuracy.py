@@ -21,6 +21,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .acquisitions import combine_acquisitions
 from .baselines import pair_geometry
 from .calibration import area_variance, calibrated_covariance
 from .errors import ErrorBudget
@@ -98,6 +99,7 @@ class HeightAccuracy:
     ----------
     cell : what the relative error refers to.
     random : (..., S) — standard deviation from pixel to pixel, of one point [m].
+    random_pair_90 : (..., S) — bound of 90 % of the differences of two points by it alone [m].
     sources : what every other source does to a scene, before calibration.
     residual : (..., S, 3, 3) — covariance of offset and tilts after the calibration, of the
         sources that it adjusts; None without one.
@@ -107,6 +109,7 @@ class HeightAccuracy:
 
     cell: Cell
     random: Array
+    random_pair_90: Array
     sources: dict[str, SystematicError]
     residual: Array | None
     relative: Array
@@ -141,6 +144,7 @@ def height_accuracy(
     radar: Radar,
     errors: ErrorBudget,
     cell: Cell | None = None,
+    combined: bool = False,
 ) -> HeightAccuracy:
     """Relative and absolute height error of a formation, after the budget's calibration.
 
@@ -150,6 +154,9 @@ def height_accuracy(
     scene : the S segments, in the middle of the swath.
     radar, errors : the radar, and the budget with its calibration.
     cell : what the relative error refers to; by default 100 km and a swath of 30 km.
+    combined : whether the first axis of the positions counts acquisitions of the same scene, with
+        errors of their own, that are combined to one height (`combine_acquisitions`); it is then
+        not an axis of the result.
 
     Returns
     -------
@@ -177,7 +184,7 @@ def height_accuracy(
     cell = Cell() if cell is None else cell
     scenes = _swath_scenes(scene, cell)
     models = {
-        place: phase_model(positions, where, radar=radar, errors=errors)
+        place: _model(positions, where, radar, errors, combined=combined)
         for place, where in scenes.items()
     }
     middle = height_error_of(models[0], scene=scene, radar=radar, errors=errors)
@@ -197,12 +204,28 @@ def height_accuracy(
             covariance = _covariance(term, np.zeros_like(term))
         removed = calibration is not None and calibration.removes(scale)
         sources[name] = SystematicError(scale, covariance, removed)
-    factor = _pair_factor(positions, models[0], scene, radar, errors)
+    factor = _pair_factor(positions, models[0], scene, radar, errors, combined=combined)
     return _combine(sources, middle.relative, factor, np.isfinite(middle.total), errors, cell)
 
 
+def _model(
+    positions: ArrayLike, scene: Scene, radar: Radar, errors: ErrorBudget, *, combined: bool
+) -> PhaseModel:
+    if not combined:
+        return phase_model(positions, scene, radar=radar, errors=errors)
+    return combine_acquisitions(
+        [phase_model(one, scene, radar=radar, errors=errors) for one in np.asarray(positions)]
+    )
+
+
 def _pair_factor(
-    positions: ArrayLike, model: PhaseModel, scene: Scene, radar: Radar, errors: ErrorBudget
+    positions: ArrayLike,
+    model: PhaseModel,
+    scene: Scene,
+    radar: Radar,
+    errors: ErrorBudget,
+    *,
+    combined: bool,
 ) -> Array:
     """Bound of 90 % of the differences of two random errors, over the deviation of one."""
     if errors.phase_std is not None:  # given, as a normal deviation
@@ -214,11 +237,17 @@ def _pair_factor(
         radar=radar,
         baseline_decorrelation=errors.baseline_decorrelation,
     )
+    pairs = radar.image_pairs
+    if combined:  # the pairs of each acquisition, their images numbered through
+        count, others = len(np.asarray(positions)), len(radar.images) - 1
+        shift = others * np.arange(count)[:, None, None]
+        pairs = np.where(pairs > 0, pairs + shift, 0).reshape(-1, 2)
+        coherence, looks = (np.concatenate(list(value), axis=-1) for value in (coherence, looks))
     return point_to_point_factor(
         model,
         coherence=coherence,
         looks=looks,
-        pairs=radar.image_pairs,
+        pairs=pairs,
         quantile=quick_difference_quantile,
     )
 
@@ -291,6 +320,7 @@ def _combine(
     return HeightAccuracy(
         cell=cell,
         random=random,
+        random_pair_90=finished(pair_factor * random),
         sources=sources,
         residual=residual,
         relative=finished(np.hypot(pair, np.sqrt(relative))),

@@ -11,15 +11,16 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from insar import PrintedFigure
+from insar import Cell, HeightAccuracy, PrintedFigure, height_accuracy
+from insar.atmosphere import tropospheric_height_error
 
 from .assessment import Assessment, ImagePair
 from .problem import Problem
 
 Array = NDArray[np.float64]
 
-GAUSSIAN_90 = 1.6448536269514722
-"""Deviations within which 90 % of a Gaussian error lie, either side."""
+ZENITH_DELAY = 2.4
+"""One-way delay of a vertical ray by the whole troposphere, at sea level [m]."""
 
 
 class FormationQuantity(StrEnum):
@@ -43,9 +44,13 @@ class FormationQuantity(StrEnum):
     RELATIVE_ERROR = "relative_error"
     """From pixel to pixel, one standard deviation."""
     ABSOLUTE_ERROR_90 = "absolute_error_90"
-    """Within which the total error lies with 90 %, of a Gaussian error: 1.645 σ."""
+    """Absolute height error at 90 %, after the calibration of the budget (`insar.accuracy`)."""
     RELATIVE_ERROR_90 = "relative_error_90"
-    """The same of the difference of two points: 1.645 √2 σ of the relative error."""
+    """Of the difference of two points in a cell, at 90 %: noise, and what tilts over the cell."""
+    RANDOM_ERROR_90 = "random_error_90"
+    """The same of noise alone."""
+    UNCORRECTED_TROPOSPHERE = "uncorrected_troposphere"
+    """Height bias by a zenith delay of 2.4 m that nobody corrects, whatever the baseline."""
     UNWRAPPING_PROBABILITY = "unwrapping_probability"
     BASELINE_STEADINESS = "baseline_steadiness"
     """Of the longest perpendicular baseline over the segments: half the difference of its largest
@@ -127,7 +132,9 @@ class FormationClaim(PrintedFigure):
     over: Over = Over.MEAN
 
 
-def measure(claim: FormationClaim, problem: Problem, assessments: Sequence[Assessment]) -> float:
+def measure(
+    claim: FormationClaim, problem: Problem, assessments: Sequence[Assessment], *, cell: Cell
+) -> float:
     """Compute what a printed figure is about.
 
     Parameters
@@ -135,6 +142,7 @@ def measure(claim: FormationClaim, problem: Problem, assessments: Sequence[Asses
     claim : the printed figure.
     problem : scene, radar, errors and limits.
     assessments : the formation of the study first, then all others that a claim may name.
+    cell : what a relative error refers to.
 
     Returns
     -------
@@ -146,7 +154,7 @@ def measure(claim: FormationClaim, problem: Problem, assessments: Sequence[Asses
         If the claim is about a formation or a pair that is not there.
     """
     with np.errstate(divide="ignore", invalid="ignore"):
-        values = _values(claim, problem, _named(claim, assessments))
+        values = _values(claim, problem, _named(claim, assessments), cell)
     if claim.segment is not None:
         value = float(values[claim.segment])
     else:
@@ -166,7 +174,7 @@ def _named(claim: FormationClaim, assessments: Sequence[Assessment]) -> Assessme
     )
 
 
-def _values(claim: FormationClaim, problem: Problem, one: Assessment) -> Array:
+def _values(claim: FormationClaim, problem: Problem, one: Assessment, cell: Cell) -> Array:
     """The quantity in every segment, (S,)."""
     error = one.height_error
     if claim.quantity.of_pair:
@@ -176,12 +184,37 @@ def _values(claim: FormationClaim, problem: Problem, one: Assessment) -> Array:
         return np.full(len(problem.scene), np.nan) if unwrapping is None else unwrapping.probability
     if claim.quantity is FormationQuantity.BASELINE_STEADINESS:
         return np.full(len(problem.scene), _steadiness(one))
+    if claim.quantity is FormationQuantity.UNCORRECTED_TROPOSPHERE:
+        return tropospheric_height_error(ZENITH_DELAY, incidence=problem.scene.incidence)
+    if claim.quantity is FormationQuantity.HEIGHT_ERROR:
+        return error.total
+    if claim.quantity is FormationQuantity.RELATIVE_ERROR:
+        return error.relative
+    accuracy = accuracy_of(problem, one, cell)
     return {
-        FormationQuantity.HEIGHT_ERROR: error.total,
-        FormationQuantity.RELATIVE_ERROR: error.relative,
-        FormationQuantity.ABSOLUTE_ERROR_90: GAUSSIAN_90 * error.total,
-        FormationQuantity.RELATIVE_ERROR_90: GAUSSIAN_90 * math.sqrt(2.0) * error.relative,
+        FormationQuantity.ABSOLUTE_ERROR_90: accuracy.absolute_90,
+        FormationQuantity.RELATIVE_ERROR_90: accuracy.relative_90,
+        FormationQuantity.RANDOM_ERROR_90: accuracy.random_pair_90,
     }[claim.quantity]
+
+
+def accuracy_of(problem: Problem, one: Assessment, cell: Cell) -> HeightAccuracy:
+    """Relative and absolute height error of a formation, or of its acquisitions combined.
+
+    Parameters
+    ----------
+    problem : scene, radar, errors and limits.
+    one : the formation.
+    cell : what a relative error refers to.
+    """
+    return height_accuracy(
+        one.scene_positions,
+        problem.scene,
+        radar=problem.radar,
+        errors=problem.errors,
+        cell=cell,
+        combined=bool(one.acquisitions),
+    )
 
 
 def _steadiness(one: Assessment) -> float:

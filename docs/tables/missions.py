@@ -11,9 +11,9 @@ import numpy as np
 from configs import EvaluateStudy, example_path, load_study
 from configs.build import build_evaluate
 from formation_opt.runs import Options, evaluate
-from insar import Claim
+from insar import Cell, Claim
 from optimize import EvaluateResult
-from optimize.claims import GAUSSIAN_90
+from optimize.claims import accuracy_of
 
 from .markdown import digits, markdown_table
 
@@ -76,16 +76,18 @@ def curves() -> str:
     result = result_of("tandem_x")
     shown = (*result.acquisitions, result.formation)
     incidence = np.degrees(result.problem.scene.incidence)
-    factor = math.sqrt(2.0) * GAUSSIAN_90
     rows = [
         [
             one.label,
-            *(f"{factor * value:.2f}" for value in one.height_error.relative),
+            *(f"{value:.2f}" for value in accuracy_of(result.problem, one, Cell()).random_pair_90),
         ]
         for one in shown
     ]
     return markdown_table(
-        ["relative error at 90 % [m] at incidence", *(f"{angle:.0f}°" for angle in incidence)],
+        [
+            "random error at 90 % [m] at incidence",
+            *(f"{angle:.0f}°" for angle in incidence),
+        ],
         rows,
     )
 

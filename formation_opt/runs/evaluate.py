@@ -88,12 +88,12 @@ def _claims(setup: EvaluateSetup, shown: Sequence[Assessment]) -> tuple[Claim, .
     ends = []
     for corner in setup.corners:
         formation, acquisitions, compare = _assessments(corner)
-        ends.append((corner.problem, (formation, *acquisitions, *compare)))
+        ends.append((corner.problem, corner.dem.cell, (formation, *acquisitions, *compare)))
     return tuple(
         judged_range(
             claim,
-            measure(claim, setup.problem, shown),
-            [measure(claim, problem, found) for problem, found in ends],
+            measure(claim, setup.problem, shown, cell=setup.dem.cell),
+            [measure(claim, problem, found, cell=cell) for problem, cell, found in ends],
         )
         for claim in setup.claims
     )
