@@ -143,9 +143,10 @@ def test_likely_height_of_perfect_phases_is_the_height():
     data = np.zeros((5, 2, 2), dtype=complex)
     data[:, 0, 1] = data[:, 1, 0] = 1e9
     processor = Processor(
-        vertical_wavenumber=kz,
-        information=1e9 * np.array([[1.0, -1.0], [-1.0, 1.0]]),
-        factor=np.zeros((2, 0)),
+        vertical_wavenumber=kz[None],
+        information=1e9 * np.array([[[1.0, -1.0], [-1.0, 1.0]]]),
+        factor=np.zeros((1, 2, 0)),
+        pairs=np.array([[[0, 1]]]),
         prior_height_std=4.0,
     )
     wrapped = np.angle(np.exp(1j * phase))
@@ -156,7 +157,7 @@ def test_likely_height_of_perfect_phases_is_the_height():
 
 def test_noise_adds_up_along_the_ladder():
     noise = np.array([[0.0, 3.0, 3.0 + 3.0 - 2.0 * np.pi]])
-    pairs = np.array([[0, 1], [1, 2]])
+    pairs = np.array([[[0, 1], [1, 2]]])
     assert along_ladder(noise, pairs=pairs) == pytest.approx(np.array([[0.0, 3.0, 6.0]]))
 
 

@@ -84,21 +84,15 @@ def _draw_chunk(
     data = link_matrices(nature.speckle, samples=samples, rng=rng)
     linked = linked_phases(data, rng=rng)
 
-    processor = Processor(
-        vertical_wavenumber=kz,
-        information=nature.information,
-        factor=nature.factor,
-        prior_height_std=prior_height_std,
-    )
-    pairs = _ladder(nature, prior_height_std)
+    processor = _processor(nature, prior_height_std)
     truth = height[:, None] * kz + shared
-    noise = along_ladder(linked, pairs=pairs)
+    noise = along_ladder(linked, pairs=processor.pairs)
     wrapped = np.angle(np.exp(1j * (truth + linked)))
-    found = bootstrapped(processor, wrapped, pairs=pairs, truth=truth, noise=noise)
+    found = bootstrapped(processor, wrapped, truth=truth, noise=noise)
     likely = likely_heights(processor, wrapped, data=data, true_phase=truth)
     errors = (
-        (truth + noise) @ processor.weights - height,
-        found.phase @ processor.weights - height,
+        processor.height(truth + noise) - height,
+        processor.height(found.phase) - height,
         likely.most_likely - height,
         likely.mean - height,
     )
@@ -108,13 +102,18 @@ def _draw_chunk(
     )
 
 
-def _ladder(nature: Nature, prior_height_std: float) -> NDArray[np.intp]:
-    """Pairs in the order in which they are joined, (M − 1, 2)."""
+def _processor(nature: Nature, prior_height_std: float) -> Processor:
     model = PhaseModel(
-        vertical_wavenumber=nature.vertical_wavenumber,
-        information=nature.information,
-        nuisance={"shared": nature.factor},
+        vertical_wavenumber=nature.vertical_wavenumber[None],
+        information=nature.information[None],
+        nuisance={"shared": nature.factor[None]},
         pair_variance={},
         scale={"shared": Scale.SCENE},
     )
-    return unwrapping_ladder(model, prior_height_std=prior_height_std).pairs
+    return Processor(
+        vertical_wavenumber=model.vertical_wavenumber,
+        information=model.information,
+        factor=model.nuisance["shared"],
+        pairs=unwrapping_ladder(model, prior_height_std=prior_height_std).pairs,
+        prior_height_std=prior_height_std,
+    )

@@ -94,19 +94,21 @@ def most_likely_height(data: Complex, phase: Array, *, start: Array, factor: Arr
     data : (samples, M, M) — A of images whose true phases are zero.
     phase : (samples, M) — their true phases, relative to the first [rad].
     start : (samples, 1 + R) — where the ascent begins, in the right cycle or a wrong one.
-    factor : (M, 1 + R) — G; its first column is kz times the prior deviation [rad].
+    factor : (B, M, 1 + R) — G, its first column kz times the prior deviation [rad]; B is 1, or the
+        number of samples.
 
     Returns
     -------
     (samples,) — heights in prior deviations.
     """
     unknown = start.copy()
+    transposed = np.swapaxes(factor, -1, -2)
     identity = np.eye(factor.shape[-1])
     for _ in range(_REFINEMENTS):
-        vector = np.exp(1j * (unknown @ factor.T - phase))
+        vector = np.exp(1j * ((factor @ unknown[..., None])[..., 0] - phase))
         gradient, weight = slope_and_weights(data, vector, sharp=False)
-        curvature = factor.T @ laplacian(weight) @ factor + identity
-        residual = gradient @ factor - unknown
+        curvature = transposed @ laplacian(weight) @ factor + identity
+        residual = (transposed @ gradient[..., None])[..., 0] - unknown
         unknown += np.linalg.solve(curvature, residual[..., None])[..., 0]
     return unknown[:, 0]
 
