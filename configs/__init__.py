@@ -14,6 +14,7 @@ from .studies import (
     STUDIES,
     EvaluateStudy,
     OptimizeStudy,
+    SimulateStudy,
     SteeringStudy,
     json_schema,
 )
@@ -27,6 +28,7 @@ __all__ = [
     "InputFile",
     "LoadedStudy",
     "OptimizeStudy",
+    "SimulateStudy",
     "SpotlightStudy",
     "SteeringStudy",
     "Study",

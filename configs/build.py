@@ -38,6 +38,7 @@ from .mission_claims import corners, with_value
 from .observing import View, build_view
 from .placing import NamedPositions, build_claims, build_positions
 from .steered import SteeringSetup, build_steering
+from .simulate_study import FlownFormation
 from .studies import EvaluateStudy, OptimizeStudy
 
 __all__ = [
@@ -303,6 +304,26 @@ def _flown(
     """The same where all are on orbits."""
     found = _compare(formations, names, problem, family=family, sign=sign)
     return tuple(one for one in found if isinstance(one, NamedStates))
+
+
+def formation_states(
+    formation: FlownFormation, names: Sequence[str], mean_motion: float
+) -> Array:
+    """States of a given formation, (N, 6) RTN at t = 0 [m, m/s].
+
+    Parameters
+    ----------
+    formation : of the study.
+    names : name of each satellite.
+    mean_motion : scalar — of the reference orbit [rad/s].
+    """
+    return _states(
+        formation.satellites,
+        names,
+        mean_motion,
+        family=formation.family,
+        sign=formation.cross_track_sign,
+    )
 
 
 def _states(

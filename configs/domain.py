@@ -97,6 +97,21 @@ def build_refutation(study: FormationStudy, problem: Problem) -> RefutationSetti
     )
 
 
+def build_instrument(
+    radar: RadarBlock, errors: ErrorsBlock, names: Sequence[str], scene: Scene
+) -> tuple[Radar, ErrorBudget]:
+    """Build the radar and the error budget of a study without segments of its own.
+
+    Parameters
+    ----------
+    radar, errors : of the study.
+    names : name of each satellite.
+    scene : where an azimuth error on the ground becomes an angle.
+    """
+    built = _radar(radar, names, looks=radar.looks)
+    return built, _errors(errors, built, scene)
+
+
 def _radar(block: RadarBlock, names: Sequence[str], *, looks: float) -> Radar:
     if isinstance(block.images, tuple):
         images = tuple((names.index(tx), names.index(rx)) for tx, rx in block.images)

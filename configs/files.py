@@ -16,6 +16,7 @@ from .messages import did_you_mean, printable
 from .texts import NotTextError, decode
 
 MAX_FILE_BYTES = 5_000_000
+MAX_BINARY_BYTES = 400_000_000
 
 SHIPPED = ("areas", "orbits")
 """Folders of this package in which a file is looked for that is not beside the study."""
@@ -31,12 +32,24 @@ class InputFile:
     ----------
     name : as the study writes it.
     sha256 : hexadecimal digest of its bytes.
-    text : its content.
+    text : its content; empty for a file that is not text.
+    content : its bytes; empty for a text.
     """
 
     name: str
     sha256: str
     text: str = field(repr=False, compare=False)
+    content: bytes = field(default=b"", repr=False, compare=False)
+
+
+def _open_binary(value: Any, info: ValidationInfo) -> InputFile:
+    if isinstance(value, InputFile):
+        return value
+    if not isinstance(value, str) or not 0 < len(value) <= _MAX_NAME:
+        raise PydanticCustomError("string_type", "must be the name of a file")
+    folder = Path((info.context or {}).get("folder", "."))
+    content = _read(_find(value, folder), limit=MAX_BINARY_BYTES)
+    return InputFile(value, hashlib.sha256(content).hexdigest(), "", content)
 
 
 def _open(value: Any, info: ValidationInfo) -> InputFile:
@@ -88,16 +101,16 @@ def shipped_files() -> tuple[str, ...]:
     )
 
 
-def _read(path: Path) -> bytes:
+def _read(path: Path, limit: int = MAX_FILE_BYTES) -> bytes:
     try:
         with path.open("rb") as stream:
-            content = stream.read(MAX_FILE_BYTES + 1)
+            content = stream.read(limit + 1)
     except (OSError, ValueError) as error:
         raise _unreadable(error) from None
-    if len(content) > MAX_FILE_BYTES:
+    if len(content) > limit:
         raise wrong(
             (),
-            f"is larger than {MAX_FILE_BYTES // 1_000_000} MB, the limit for such a file",
+            f"is larger than {limit // 1_000_000} MB, the limit for such a file",
             "cut it down to what the study needs",
         )
     return content
@@ -114,3 +127,10 @@ File = Annotated[
     WithJsonSchema({"type": "string", "minLength": 1, "maxLength": _MAX_NAME, "format": "path"}),
 ]
 """A file, named by its path from the folder of the study; its content is read with the study."""
+
+BinaryFile = Annotated[
+    InputFile,
+    PlainValidator(_open_binary),
+    WithJsonSchema({"type": "string", "minLength": 1, "maxLength": _MAX_NAME, "format": "path"}),
+]
+"""A file that is not text, named likewise."""

@@ -37,6 +37,7 @@ from .observation import SideName
 from .orbits import OrbitBlock, build_reference
 from .refutation import RefutationBlock
 from .scenes import SceneBlock
+from .simulate_study import SimulateStudy
 from .steering import (
     LAWS,
     BoresightBlock,
@@ -237,6 +238,7 @@ STUDIES: dict[str, type[Study]] = {
     "spotlight": SpotlightStudy,
     "video": VideoStudy,
     "coverage": CoverageStudy,
+    "simulate": SimulateStudy,
 }
 
 

@@ -45,7 +45,7 @@ class Processor:
 
     @cached_property
     def covariance(self) -> Array:
-        """Of the phases of all images but the first, at a known height, (B, M − 1, M − 1) [rad²]."""
+        """Of all phases but the first at a known height, (B, M − 1, M − 1) [rad²]."""
         noise = self.information[:, 1:, 1:].copy()
         index = np.arange(noise.shape[-1])
         noise[:, index, index] += _UNMEASURED_PHASE_STD**-2
@@ -85,9 +85,7 @@ class Unwrapped(NamedTuple):
     right: NDArray[np.bool_]
 
 
-def bootstrapped(
-    processor: Processor, wrapped: Array, *, truth: Array, noise: Array
-) -> Unwrapped:
+def bootstrapped(processor: Processor, wrapped: Array, *, truth: Array, noise: Array) -> Unwrapped:
     """Unwrap along the ladder: each pair is predicted by the prior height and the rungs below.
 
     Parameters
