@@ -10,11 +10,11 @@ from .examples import example_names, example_path, example_text
 from .files import InputFile
 from .loader import LoadedStudy, effective_text, load_study
 from .messages import BuildError, StudyError
+from .simulate_study import SimulateStudy
 from .studies import (
     STUDIES,
     EvaluateStudy,
     OptimizeStudy,
-    SimulateStudy,
     SteeringStudy,
     json_schema,
 )

@@ -37,8 +37,8 @@ from .messages import KeyPath
 from .mission_claims import corners, with_value
 from .observing import View, build_view
 from .placing import NamedPositions, build_claims, build_positions
-from .steered import SteeringSetup, build_steering
 from .simulate_study import FlownFormation
+from .steered import SteeringSetup, build_steering
 from .studies import EvaluateStudy, OptimizeStudy
 
 __all__ = [
@@ -306,9 +306,7 @@ def _flown(
     return tuple(one for one in found if isinstance(one, NamedStates))
 
 
-def formation_states(
-    formation: FlownFormation, names: Sequence[str], mean_motion: float
-) -> Array:
+def formation_states(formation: FlownFormation, names: Sequence[str], mean_motion: float) -> Array:
     """States of a given formation, (N, 6) RTN at t = 0 [m, m/s].
 
     Parameters

@@ -8,10 +8,10 @@ from pydantic import Field, model_validator
 
 from formation import Orbit
 
+from .base import Block
 from .blocks import ErrorsBlock, RadarBlock
 from .checks import check_drift, check_images, check_members, check_names
 from .formations import Family, Satellites, Sign
-from .base import Block
 from .orbits import OrbitBlock, build_reference
 from .study import Study
 from .terrain import SimulationBlock, TerrainBlock

@@ -90,5 +90,3 @@ def build_simulate(study: SimulateStudy) -> SimulateSetup:
         acquisitions=study.simulation.acquisitions,
     )
     return SimulateSetup(request, names, states, study.simulation.seed, orbit)
-
-

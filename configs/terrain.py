@@ -37,8 +37,8 @@ class TerrainBlock(Block):
 
     sample: Literal["jacksboro"] | None = Field(
         default=None,
-        description="jacksboro: the elevation model of the Jacksboro fault, Tennessee, 3 arc seconds, "
-        "that comes with Matplotlib; or give file.",
+        description="jacksboro: the elevation model of the Jacksboro fault, Tennessee, of 3 arc "
+        "seconds, that comes with Matplotlib; or give file.",
     )
     file: BinaryFile | None = Field(
         default=None,

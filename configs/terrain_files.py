@@ -152,8 +152,8 @@ def _numbers(heights: Any) -> Array:
     if values.ndim != 2 or values.dtype.kind not in "iuf":
         raise BuildError(
             (*_AT, "file"),
-            f"holds {values.dtype} numbers of shape {values.shape}; a terrain is a grid of heights, "
-            "rows from north to south",
+            f"holds {values.dtype} numbers of shape {values.shape}; a terrain is a grid of "
+            "heights, rows from north to south",
         )
     return values.astype(np.float64)
 
@@ -169,7 +169,7 @@ def _geotiff(file: InputFile) -> _Raster:
         ) from None
     try:
         with tifffile.TiffFile(io.BytesIO(file.content)) as tiff:
-            page = tiff.pages[0]
+            page: Any = tiff.pages[0]
             heights = _numbers(page.asarray())
             keys = dict(page.geotiff_tags or {})
             nodata = page.tags.get("GDAL_NODATA")

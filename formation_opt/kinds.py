@@ -10,10 +10,21 @@ from typing import Any, NamedTuple
 
 from configs.build import build_evaluate, build_optimize
 from configs.covered import build_coverage
+from configs.simulated import build_simulate
 from configs.staring import build_spotlight, build_video
 from configs.steered import build_steering
 
-from .runs import Options, Outcome, coverage, evaluate, optimize, spotlight, steering, video
+from .runs import (
+    Options,
+    Outcome,
+    coverage,
+    evaluate,
+    optimize,
+    simulate,
+    spotlight,
+    steering,
+    video,
+)
 
 
 class Kind(NamedTuple):
@@ -37,4 +48,5 @@ KINDS: dict[str, Kind] = {
     "spotlight": Kind(build_spotlight, spotlight.run),
     "video": Kind(build_video, video.run),
     "coverage": Kind(build_coverage, coverage.run),
+    "simulate": Kind(build_simulate, simulate.run),
 }

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import io
 import os
 import tempfile
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Mapping
 from pathlib import Path
+from typing import Any
 
 from .study import Provenance, StudyInfo
 
@@ -14,7 +16,7 @@ FORMATS = ("html", "pdf")
 
 _SOMETIMES = (
     *("segments.csv", "selection.csv", "compensation.csv", "claims.csv"),
-    *("coverage.csv", "candidates.csv"),
+    *("coverage.csv", "candidates.csv", "maps.npz"),
 )
 """Tables that a study of the same kind may have, or not."""
 
@@ -77,6 +79,9 @@ def _files(
     yield "result.json", result_json(page.json(result), study=study, provenance=provenance)
     for name, frame in {**page.csv(result), **observation_tables(study.observation)}.items():
         yield name, csv_bytes(frame)
+    arrays = page.arrays(result)
+    if arrays:
+        yield "maps.npz", _npz_bytes(arrays)
     if not formats:
         return
     document = page.document(result, study, provenance)
@@ -88,6 +93,14 @@ def _files(
         from .pdf import pdf_bytes
 
         yield "report.pdf", pdf_bytes(document)
+
+
+def _npz_bytes(arrays: Mapping[str, Any]) -> bytes:
+    import numpy as np
+
+    buffer = io.BytesIO()
+    np.savez_compressed(buffer, **arrays)
+    return buffer.getvalue()
 
 
 def _replace(path: Path, content: bytes) -> None:

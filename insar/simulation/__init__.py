@@ -5,6 +5,7 @@ them, and compares what comes out with what `insar.height_error` and `insar.unwr
 predict.
 """
 
+from .end_to_end import simulate_terrain
 from .nature import Nature, natural_errors
 from .refutation import (
     MAX_IMAGES,
@@ -14,14 +15,20 @@ from .refutation import (
     Verdict,
     refute,
 )
+from .terrain_results import Comparison, TerrainMaps, TerrainRequest, TerrainSimulation
 
 __all__ = [
     "MAX_IMAGES",
+    "Comparison",
     "Nature",
     "Refutation",
     "SegmentRefutation",
     "Simulated",
+    "TerrainMaps",
+    "TerrainRequest",
+    "TerrainSimulation",
     "Verdict",
     "natural_errors",
     "refute",
+    "simulate_terrain",
 ]

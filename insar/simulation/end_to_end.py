@@ -156,11 +156,13 @@ def _maps(
         clear[points.mask] = points.clear
     return TerrainMaps(
         phase=spread(phases),
+        residual_phase=spread([one.phase[:, 1:] for one in flown]),
         coherence=spread([unfiltered_coherence(request, points)[:, 1:] for points in parts]),
         predicted_total=predicted[0],
         predicted_relative=predicted[1],
         predicted_failure=predicted[2],
         prior_error=np.where(view.seen, prior, np.nan),
+        random_error=spread([one.noise for one in flown]),
         least_squares_error=spread([one.least_squares for one in flown]),
         likely_error=spread([one.likely for one in flown]),
         wrong=wrong,
@@ -182,8 +184,8 @@ def _result(
     noise, fourth, systematic, total, offset, error, wrong, prior = sums.T
     value = math.sqrt(noise.mean())
     # Noise is independent from point to point. An error of the scene is drawn once a flight: its
-    # square has the spread 2σ⁴ of one Gaussian, with the σ that is predicted, since few draws do not
-    # know it.
+    # square has the spread 2σ⁴ of one Gaussian, with the σ that is predicted: few draws know it
+    # badly.
     spread = math.sqrt(max(fourth.mean() - noise.mean() ** 2, 0.0) / (points * flights))
     all_errors = math.sqrt(total.mean())
     expected = max(_rms(predicted[0]) ** 2 - _rms(predicted[1]) ** 2, systematic.mean())

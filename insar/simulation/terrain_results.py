@@ -53,10 +53,13 @@ class TerrainMaps:
     ----------
     phase : (M − 1, rows, columns) — wrapped, of every image but the first against it, less what
         the mean height would give at the same range [rad].
+    residual_phase : (M − 1, rows, columns) — likewise less what the prior height would give: what
+        is unwrapped [rad].
     coherence : (M − 1, rows, columns) — of the same pairs at the local slope, before filtering.
     predicted_total, predicted_relative : of the height, by the error model [m].
     predicted_failure : probability that a cycle is wrong, by the error model.
     prior_error : of the height known beforehand [m].
+    random_error : of the height by noise alone, weighted least squares with right cycles [m].
     least_squares_error, likely_error : of the height by weighted least squares, and of the one of
         maximum likelihood [m].
     wrong : whether bootstrapping found a wrong cycle.
@@ -65,11 +68,13 @@ class TerrainMaps:
     """
 
     phase: Array
+    residual_phase: Array
     coherence: Array
     predicted_total: Array
     predicted_relative: Array
     predicted_failure: Array
     prior_error: Array
+    random_error: Array
     least_squares_error: Array
     likely_error: Array
     wrong: Mask

@@ -6,16 +6,18 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import pandas as pd
+from numpy.typing import NDArray
 
 from insar.observe import SteeringResult
 from insar.observe.agile.spotlight_results import SpotlightResult
 from insar.observe.agile.video_results import VideoResult
 from insar.observe.coverage.results import CoverageResult
+from insar.simulation import TerrainSimulation
 from optimize import EvaluateResult, OptimizeResult
 
 from ..document import Document
 from ..study import Provenance, StudyInfo
-from . import coverage, evaluate, optimize, spotlight, steering, video
+from . import coverage, evaluate, optimize, simulate, spotlight, steering, video
 
 
 class Page(NamedTuple):
@@ -26,11 +28,13 @@ class Page(NamedTuple):
     document : result, study and provenance → the report.
     json : result → its part of ``result.json``.
     csv : result → file name → table.
+    arrays : result → name → array, for ``maps.npz``; none for most.
     """
 
     document: Callable[[Any, StudyInfo, Provenance], Document]
     json: Callable[[Any], dict[str, Any]]
     csv: Callable[[Any], dict[str, pd.DataFrame]]
+    arrays: Callable[[Any], dict[str, NDArray[Any]]] = lambda _: {}
 
 
 _PAGES: dict[type, Page] = {
@@ -39,6 +43,7 @@ _PAGES: dict[type, Page] = {
     SteeringResult: Page(steering.document, steering.json, steering.csv),
     SpotlightResult: Page(spotlight.document, spotlight.json, spotlight.csv),
     VideoResult: Page(video.document, video.json, video.csv),
+    TerrainSimulation: Page(simulate.document, simulate.json, simulate.csv, simulate.arrays),
     CoverageResult: Page(coverage.document, coverage.json, coverage.csv),
 }
 
