@@ -65,18 +65,18 @@ class Terrain:
     def east(self) -> Array:
         """Distance of each column from the middle of the grid, (columns,) [m]."""
         columns = self.heights.shape[1]
-        return self.posting_east * (np.arange(columns) - 0.5 * (columns - 1))
+        return np.asarray(self.posting_east * (np.arange(columns) - 0.5 * (columns - 1)))
 
     @property
     def north(self) -> Array:
         """Distance of each row from the middle of the grid, (rows,), falling [m]."""
         rows = self.heights.shape[0]
-        return self.posting_north * (0.5 * (rows - 1) - np.arange(rows))
+        return np.asarray(self.posting_north * (0.5 * (rows - 1) - np.arange(rows)))
 
     def gradient(self) -> tuple[Array, Array]:
         """Rise per meter eastward and northward, each (rows, columns).
 
         Central differences, one-sided at the edges; NaN beside gaps.
         """
-        down, right = np.gradient(self.heights, self.posting_north, self.posting_east)
-        return right, -down
+        south, east = np.gradient(self.heights, self.posting_north, self.posting_east)
+        return np.asarray(east), -np.asarray(south)
