@@ -36,7 +36,8 @@ examples:
   formation-opt three_sat                    run a shipped example
   formation-opt --new three_sat > my.yaml    start a study of your own
 
-exit codes: 0 done, 2 wrong input, 3 no feasible design found, 130 interrupted
+exit codes: 0 done, 2 wrong input, 3 no feasible design found, 130 interrupted (the report
+holds the best so far; --resume goes on)
 """
 
 
@@ -100,6 +101,11 @@ def _parser() -> argparse.ArgumentParser:
         default=FORMATS,
         metavar="html,pdf",
         help="report formats, or 'none' (result.json and the tables are always written)",
+    )
+    parser.add_argument(
+        "--resume",
+        action="store_true",
+        help="go on with the search of an earlier run that did not end, to the same result",
     )
     parser.add_argument(
         "--check", action="store_true", help="only check that the study is valid, and stop"
@@ -174,6 +180,7 @@ def _schema() -> int:
 def _run(options: argparse.Namespace) -> int:
     from configs import StudyError
 
+    from .checkpoint import CheckpointError
     from .execution import OutputError, build, execute
 
     try:
@@ -189,12 +196,13 @@ def _run(options: argparse.Namespace) -> int:
             seed=options.seed,
             formats=options.format,
             quiet=options.quiet,
+            resume=options.resume,
             command=_command(options),
         )
-    except (StudyError, OutputError) as error:
+    except (StudyError, OutputError, CheckpointError) as error:
         return _fail(str(error))
     if outcome.interrupted:
-        return _fail("interrupted; the report holds the best so far", INTERRUPTED)
+        return _fail("interrupted; the report holds the best so far, --resume goes on", INTERRUPTED)
     if outcome.blocked is not None:
         return _fail(f"no feasible design was found: {outcome.blocked}", INFEASIBLE)
     return DONE

@@ -6,6 +6,7 @@ import os
 import tempfile
 import time
 from collections.abc import Callable, Collection
+from dataclasses import replace
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
@@ -14,8 +15,10 @@ from configs import BuildError, LoadedStudy, effective_text
 from reports import Provenance, StudyInfo, write_report
 
 from . import provenance, terminal
+from .checkpoint import Checkpoint, CheckpointError, Identity, has_checkpoint
 from .interrupts import interrupts
 from .kinds import KINDS
+from .output import say
 from .runs import Outcome
 
 
@@ -31,6 +34,7 @@ def execute(
     formats: Collection[str],
     quiet: bool,
     command: str,
+    resume: bool = False,
 ) -> Outcome:
     """Run a study and write its report.
 
@@ -42,6 +46,7 @@ def execute(
     formats : of the report.
     quiet : whether to print nothing.
     command : the command that repeats the run.
+    resume : whether to go on with the unfinished search that the folder holds.
 
     Returns
     -------
@@ -53,11 +58,26 @@ def execute(
         If the study turns out to make no sense, before anything is written.
     OutputError
         If the folder cannot be written, before anything is computed or when the disk fills up.
+    CheckpointError
+        If `resume` asks for a search that is not there to go on with.
     """
+    searches = KINDS[loaded.study.kind].searches
+    if resume and not searches:
+        raise CheckpointError(
+            f"--resume goes on with a search, and a study of kind {loaded.study.kind} has none"
+        )
     setup = build(loaded)
     _make_writable(out)
+    if searches and not quiet:
+        if resume and not has_checkpoint(out):
+            say(f"{out} holds no unfinished search: starting from the beginning")
+        if not resume and has_checkpoint(out):
+            say(f"{out} held an unfinished search: starting anew (--resume would have gone on)")
     with interrupts() as should_stop:
-        return _execute(loaded, setup, out, seed, formats, quiet, command, should_stop)
+        try:
+            return _execute(loaded, setup, out, seed, formats, quiet, command, should_stop, resume)
+        except OSError as error:  # of a checkpoint
+            raise OutputError(_unwritable(out, error)) from error
 
 
 def build(loaded: LoadedStudy) -> Any:
@@ -87,12 +107,19 @@ def _execute(
     quiet: bool,
     command: str,
     should_stop: Callable[[], bool],
+    resume: bool,
 ) -> Outcome:
     study = loaded.study
     started, clock = datetime.now(UTC), time.perf_counter()
+    checkpoints: list[Checkpoint] = []
+
+    def keeper(seed_used: int) -> Checkpoint:
+        checkpoints.append(Checkpoint(out, _identity(loaded, seed_used), resume=resume))
+        return checkpoints[-1]
+
     with terminal.progress(seed=seed, quiet=quiet, should_stop=should_stop) as options:
         try:
-            outcome = KINDS[study.kind].run(study, setup, options)
+            outcome = KINDS[study.kind].run(study, setup, replace(options, keeper=keeper))
         except (
             BuildError
         ) as error:  # an ephemeris with a gap, found when it is asked for its states
@@ -124,9 +151,21 @@ def _execute(
         paths = write_report(outcome.result, study=info, provenance=how, out=out, formats=formats)
     except OSError as error:
         raise OutputError(_unwritable(out, error)) from error
+    if not outcome.interrupted:
+        for checkpoint in checkpoints:
+            checkpoint.remove()
     if not quiet:
         terminal.summary(outcome.summary, paths, seconds=time.perf_counter() - clock)
     return outcome
+
+
+def _identity(loaded: LoadedStudy, seed: int) -> Identity:
+    return Identity(
+        study=loaded.study.model_dump(mode="json"),
+        seed=seed,
+        inputs={file.name: file.sha256 for file in loaded.files},
+        packages={"formation-opt": provenance.program()} | provenance.packages(),
+    )
 
 
 def _make_writable(out: Path) -> None:

@@ -35,14 +35,16 @@ class Kind(NamedTuple):
     build : study → what it is computed with; raises `configs.BuildError` for a study that makes no
         sense, such as a target that is never seen.
     run : study, what was built, options → outcome.
+    searches : whether the run searches, and can go on with a search that was stopped.
     """
 
     build: Callable[[Any], Any]
     run: Callable[[Any, Any, Options], Outcome]
+    searches: bool = False
 
 
 KINDS: dict[str, Kind] = {
-    "optimize": Kind(build_optimize, optimize.run),
+    "optimize": Kind(build_optimize, optimize.run, searches=True),
     "evaluate": Kind(build_evaluate, evaluate.run),
     "steering": Kind(build_steering, steering.run),
     "spotlight": Kind(build_spotlight, spotlight.run),

@@ -17,9 +17,10 @@ from .design_space import DesignSpace, DesignVariables
 from .findings import findings
 from .genetic import GeneticSettings
 from .problem import Evaluation, Problem
+from .progress import GenerationRecord, Keeper
 from .refuting import RefutationSettings, refuted
 from .result import EvaluateResult, OptimizeResult
-from .search import GenerationRecord, SearchResult, SearchSettings, search
+from .search import SearchResult, SearchSettings, search
 from .structured import structured_designs
 
 __all__ = [
@@ -40,6 +41,7 @@ __all__ = [
     "GenerationRecord",
     "GeneticSettings",
     "ImagePair",
+    "Keeper",
     "Limit",
     "Motion",
     "OpenNumber",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import random
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from deap import base, tools
@@ -40,6 +40,49 @@ class GeneticSettings(NamedTuple):
     elite: int = 1
 
 
+class GeneticState(NamedTuple):
+    """All that the generations to come follow from.
+
+    Attributes
+    ----------
+    number : of the generation that was evaluated last.
+    designs : (P, D) — the population after selection, in its order.
+    scores : (P, 2) — total violation and objective of each.
+    random : state of the generator that DEAP draws from, as `random.getstate` has it.
+    """
+
+    number: int
+    designs: Array
+    scores: Array
+    random: tuple[Any, ...]
+
+    def plain(self) -> dict[str, Any]:
+        """As lists of numbers, which JSON can hold; `from_plain` reverses it exactly."""
+        version, words, gauss = self.random
+        return {
+            "number": self.number,
+            "designs": self.designs.tolist(),
+            "scores": self.scores.tolist(),
+            "random": [version, list(words), gauss],
+        }
+
+    @classmethod
+    def from_plain(cls, data: dict[str, Any]) -> GeneticState:
+        """Restore a state from what `plain` gave.
+
+        Parameters
+        ----------
+        data : from `plain`.
+        """
+        version, words, gauss = data["random"]
+        return cls(
+            number=int(data["number"]),
+            designs=np.array(data["designs"], dtype=np.float64),
+            scores=np.array(data["scores"], dtype=np.float64),
+            random=(version, tuple(words), gauss),
+        )
+
+
 class Generation(NamedTuple):
     """One evaluated generation.
 
@@ -48,11 +91,13 @@ class Generation(NamedTuple):
     number : 0 for the first.
     designs : (P, D) — its individuals.
     evaluation : their scores.
+    state : from which the search can go on.
     """
 
     number: int
     designs: Array
     evaluation: Evaluation
+    state: GeneticState
 
 
 class _Fitness(base.Fitness):  # type: ignore[misc]  # DEAP is untyped
@@ -79,6 +124,7 @@ def generations(
     settings: GeneticSettings,
     rng: np.random.Generator,
     start: Array | None = None,
+    state: GeneticState | None = None,
 ) -> Iterator[Generation]:
     """Run the genetic algorithm, yielding each generation as it is evaluated.
 
@@ -89,44 +135,65 @@ def generations(
     settings : of the algorithm.
     rng : the only source of randomness.
     start : (P0, D) — designs that join the first generation, within the box.
+    state : of an earlier run with the same arguments, which goes on after that generation; `rng`
+        and `start` are then not used.
 
     Yields
     ------
-    Generation — `settings.generations` + 1 of them.
+    Generation — `settings.generations` + 1 of them, less those that `state` has behind it.
 
     References
     ----------
     Deb 2000, doi:10.1016/S0045-7825(99)00389-8 (feasibility rules); Deb and Agrawal 1995
     (simulated binary crossover); Fortin et al. 2012 (DEAP).
     """
-    first = rng.uniform(lower, upper, size=(settings.population, lower.size))
-    if start is not None:
-        known = np.clip(start[: settings.population], lower, upper)
-        first[: len(known)] = known
-    population = [_Individual(genes) for genes in first.tolist()]
-    source = random.Random(int(rng.integers(2**63)))  # noqa: S311 - DEAP draws from `random`
-    yield _score(population, evaluate, number=0)
+    source = random.Random()  # noqa: S311 - DEAP draws from `random`
+    if state is None:
+        first = rng.uniform(lower, upper, size=(settings.population, lower.size))
+        if start is not None:
+            known = np.clip(start[: settings.population], lower, upper)
+            first[: len(known)] = known
+        population = [_Individual(genes) for genes in first.tolist()]
+        source.seed(int(rng.integers(2**63)))
+        designs, evaluation = _score(population, evaluate)
+        state = _state(0, population, source)
+        yield Generation(0, designs, evaluation, state)
+    else:
+        population = _population(state)
+        source.setstate(state.random)
     low, up = lower.tolist(), upper.tolist()
-    for number in range(1, settings.generations + 1):
+    for number in range(state.number + 1, settings.generations + 1):
         with _deap_draws_from(source):
             children = _children(population, low, up, settings)
         elite = tools.selBest(population, settings.elite)
-        generation = _score(children, evaluate, number=number)
+        designs, evaluation = _score(children, evaluate)
         survivors = tools.selBest(children, len(children) - len(elite))
         population = [*elite, *survivors]
-        yield generation
+        yield Generation(number, designs, evaluation, _state(number, population, source))
+
+
+def _state(number: int, population: list[_Individual], source: random.Random) -> GeneticState:
+    scores = np.array([individual.fitness.values for individual in population])
+    return GeneticState(number, np.array(population), scores, source.getstate())
+
+
+def _population(state: GeneticState) -> list[_Individual]:
+    population = [_Individual(genes) for genes in state.designs.tolist()]
+    for individual, scores in zip(population, state.scores.tolist(), strict=True):
+        individual.fitness.values = tuple(scores)
+    return population
 
 
 def _score(
-    population: list[_Individual], evaluate: Callable[[Array], Evaluation], *, number: int
-) -> Generation:
+    population: list[_Individual], evaluate: Callable[[Array], Evaluation]
+) -> tuple[Array, Evaluation]:
     designs = np.array(population)
     evaluation = evaluate(designs)
     for individual, violation, objective in zip(
         population, evaluation.total_violation, evaluation.objectives, strict=True
     ):
         individual.fitness.values = (float(violation), float(objective))
-    return Generation(number, designs, evaluation)
+    return designs, evaluation
 
 
 def _children(

@@ -11,8 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .design_space import DesignSpace
-from .genetic import Generation, GeneticSettings, generations
+from .genetic import Generation, GeneticSettings, GeneticState, generations
 from .problem import Evaluation, Problem
+from .progress import Candidate, Forgetful, GenerationRecord, Keeper, Step
 from .refinement import refine
 
 Array = NDArray[np.float64]
@@ -33,28 +34,6 @@ class SearchSettings(NamedTuple):
 
     genetic: GeneticSettings = GeneticSettings()
     refinements: int = 16
-
-
-class GenerationRecord(NamedTuple):
-    """One line of the convergence history.
-
-    Attributes
-    ----------
-    generation : 0 for the first; the refinement adds one line at the end.
-    evaluations : formations scored so far.
-    best : best region height error of a feasible formation so far [m]; `inf` before the first.
-    mean : mean region height error of the generation's feasible formations [m]; NaN without any.
-    feasible_fraction : share of the generation that is feasible.
-    refinement : whether this is the local refinement, which is no generation: its mean and
-        feasible fraction are NaN.
-    """
-
-    generation: int
-    evaluations: int
-    best: float
-    mean: float
-    feasible_fraction: float
-    refinement: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,6 +75,7 @@ def search(
     start: Array | None = None,
     on_generation: Callable[[GenerationRecord], None] | None = None,
     should_stop: Callable[[], bool] = lambda: False,
+    keeper: Keeper | None = None,
 ) -> SearchResult:
     """Search the design space for the smallest region height error within the limits.
 
@@ -109,13 +89,17 @@ def search(
         the box of the space.
     on_generation : called after each generation.
     should_stop : asked after each generation and step of the refinement; True ends the search.
+    keeper : keeps every generation and every refined candidate; where it holds those of an earlier
+        run with the same arguments, the search goes on after them, to the same result. None keeps
+        nothing.
 
     Returns
     -------
     SearchResult — never worse than a feasible `start` within the box. Stopped by `should_stop` or
     by a KeyboardInterrupt, it is the best so far, marked `interrupted`.
     """
-    run = _Search(problem, space, on_generation, should_stop)
+    run = _Search(problem, space, on_generation, should_stop, keeper or Forgetful())
+    state, refined = run.restore()
     interrupted = False
     try:
         for generation in generations(
@@ -125,16 +109,16 @@ def search(
             settings=settings.genetic,
             rng=rng,
             start=start,
+            state=state,
         ):
             run.record(generation)
             if should_stop():
                 raise KeyboardInterrupt
     except KeyboardInterrupt:
         interrupted = True
-    genetic_objective = run.best_objective if run.best_feasible else np.inf
     if not interrupted:
-        interrupted = run.refine_best(settings.refinements)
-    return run.result(genetic_objective, interrupted=interrupted)
+        interrupted = run.refine_best(settings.refinements, refined)
+    return run.result(interrupted=interrupted)
 
 
 @dataclass
@@ -145,10 +129,12 @@ class _Search:
     space: DesignSpace
     on_generation: Callable[[GenerationRecord], None] | None
     should_stop: Callable[[], bool]
+    keeper: Keeper
     evaluations: int = 0
     history: list[GenerationRecord] = field(default_factory=list)
-    candidates: list[tuple[float, float, Array]] = field(default_factory=list)
-    _best: tuple[float, float, Array] | None = None
+    candidates: list[Candidate] = field(default_factory=list)
+    genetic_objective: float = math.inf
+    _best: Candidate | None = None
 
     @property
     def best_feasible(self) -> bool:
@@ -162,34 +148,54 @@ class _Search:
         self.evaluations += len(designs)
         return self.problem.evaluate(self.space.states(designs))
 
+    def restore(self) -> tuple[GeneticState | None, list[Step]]:
+        """Take over what the keeper holds; return the last generation, and the refined after it."""
+        steps, state = self.keeper.restore()
+        refined = []
+        for step in map(Step.from_plain, steps):
+            if step.record is None:
+                refined.append(step)
+            else:
+                self._take(step)
+        return None if state is None else GeneticState.from_plain(state), refined
+
     def record(self, generation: Generation) -> None:
         evaluation = generation.evaluation
         violation, objective = evaluation.total_violation, evaluation.objectives
         order = np.lexsort((objective, violation))
-        self.candidates += [
-            (float(violation[i]), float(objective[i]), generation.designs[i]) for i in order[:5]
-        ]
-        self._offer(self.candidates[-len(order[:5])])
-        feasible = evaluation.feasible
-        self._append(
-            GenerationRecord(
-                generation=generation.number,
-                evaluations=self.evaluations,
-                best=self.best_objective if self.best_feasible else np.inf,
-                mean=float(objective[feasible].mean()) if feasible.any() else np.nan,
-                feasible_fraction=float(feasible.mean()),
-            )
+        candidates = tuple(
+            Candidate(float(violation[i]), float(objective[i]), generation.designs[i])
+            for i in order[:5]
         )
+        feasible = evaluation.feasible
+        best = min(
+            self.best_objective if self.best_feasible else np.inf,
+            float(np.min(objective[feasible], initial=np.inf)),
+        )
+        record = GenerationRecord(
+            generation=generation.number,
+            evaluations=self.evaluations,
+            best=best,
+            mean=float(objective[feasible].mean()) if feasible.any() else np.nan,
+            feasible_fraction=float(feasible.mean()),
+        )
+        step = Step(self.evaluations, candidates, record)
+        self.keeper.keep(step.plain(), generation.state.plain())
+        self._take(step)
 
-    def refine_best(self, count: int) -> bool:
-        """Refine the best designs; return whether that was interrupted."""
+    def refine_best(self, count: int, refined: list[Step]) -> bool:
+        """Refine the best designs; return whether that was interrupted.
+
+        The first are already `refined` where the search goes on after an earlier run.
+        """
         candidates = self._distant_candidates(count)
-        interrupted = any(self._refine(design) for design in candidates)
+        known = iter(refined)
+        interrupted = any(self._refine(design, next(known, None)) for design in candidates)
         # The cross-track sign is a choice, which no descent crosses: the best is tried with the
         # other one too.
         mirrored = self.space.mirrored(self._best[2]) if candidates and self._best else None
         if mirrored is not None and not interrupted:
-            interrupted = self._refine(mirrored)
+            interrupted = self._refine(mirrored, next(known, None))
         if candidates:
             self._append(
                 GenerationRecord(
@@ -203,15 +209,22 @@ class _Search:
             )
         return interrupted
 
-    def _refine(self, start: Array) -> bool:
-        """Refine one design; return whether that was interrupted."""
+    def _refine(self, start: Array, known: Step | None) -> bool:
+        """Refine one design, unless its outcome is known; return whether that was interrupted."""
+        if known is not None:
+            self._take(known)
+            return False
         outcome = refine(self._score, start, upper=self.space.upper, free=2 * self.space.satellites)
         evaluation = self.evaluate(outcome.design[None])
         violation, objective = evaluation.total_violation, evaluation.objectives
-        self._offer((float(violation[0]), float(objective[0]), outcome.design))
+        candidate = Candidate(float(violation[0]), float(objective[0]), outcome.design)
+        step = Step(self.evaluations, (candidate,))
+        if not outcome.interrupted:
+            self.keeper.keep(step.plain(), None)
+        self._take(step)
         return outcome.interrupted
 
-    def result(self, genetic_objective: float, *, interrupted: bool) -> SearchResult:
+    def result(self, *, interrupted: bool) -> SearchResult:
         if self._best is None:  # interrupted before the first generation
             raise KeyboardInterrupt
         _, objective, design = self._best
@@ -219,7 +232,7 @@ class _Search:
             design=design,
             objective=objective,
             feasible=self.best_feasible,
-            genetic_objective=genetic_objective,
+            genetic_objective=self.genetic_objective,
             evaluations=self.evaluations,
             history=tuple(self.history),
             interrupted=interrupted,
@@ -232,9 +245,16 @@ class _Search:
         objectives, margins = self.problem.objectives_and_margins(self.space.states(designs))
         return objectives, np.concatenate([np.empty((len(designs), 0)), *margins], axis=-1)
 
-    def _offer(self, candidate: tuple[float, float, Array]) -> None:
-        if self._best is None or candidate[:2] < self._best[:2]:
-            self._best = candidate
+    def _take(self, step: Step) -> None:
+        """Count a step that is finished, in this run or in an earlier one."""
+        self.evaluations = step.evaluations
+        for candidate in step.candidates:
+            if self._best is None or candidate[:2] < self._best[:2]:
+                self._best = candidate
+        if step.record is not None:
+            self.candidates += step.candidates
+            self.genetic_objective = step.record.best
+            self._append(step.record)
 
     def _append(self, record: GenerationRecord) -> None:
         self.history.append(record)

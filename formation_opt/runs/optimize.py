@@ -39,6 +39,7 @@ def run(study: OptimizeStudy, setup: OptimizeSetup, options: Options) -> Outcome
         start=None if setup.initial_design is None else setup.initial_design[None],
         on_generation=options.on_generation,
         should_stop=options.should_stop,
+        keeper=None if options.keeper is None else options.keeper(seed),
     )
     names = setup.space.names
     initial = assess(setup.problem, setup.initial_states, label="initial", names=names)

@@ -9,7 +9,7 @@ from typing import NamedTuple
 from formation import Orbit
 from insar.observe import Observation
 from insar.observe.agile.staring import StaringScene
-from optimize import GenerationRecord
+from optimize import GenerationRecord, Keeper
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -22,12 +22,14 @@ class Options:
     on_start : called with the number of generations to come.
     on_generation : called after each.
     should_stop : whether the user asked to stop.
+    keeper : given the seed, what keeps the steps of a search; None keeps nothing.
     """
 
     seed: int | None = None
     on_start: Callable[[int], None] = lambda _: None
     on_generation: Callable[[GenerationRecord], None] = lambda _: None
     should_stop: Callable[[], bool] = lambda: False
+    keeper: Callable[[int], Keeper] | None = None
 
 
 class Summary(NamedTuple):
