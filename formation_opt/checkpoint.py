@@ -3,8 +3,8 @@
 Two files in the output folder, plain data both: `checkpoint.jsonl` is a journal with a line for
 each step of the search, only ever appended to; `checkpoint.json` says which study this is, how much
 of the journal counts, and the state that the next step follows from. The journal is written first
-and the other file replaced in one move, so at any moment the pair describes a finished step, and half a
-line behind it is cut off. A run that ends removes both.
+and the other file replaced in one move, so at any moment the pair describes a finished step, and
+half a line behind it is cut off. A run that ends removes both.
 """
 
 from __future__ import annotations
