@@ -92,10 +92,10 @@ class MissionClaimBlock(PrintedBlock):
     segment: Annotated[Whole, Field(ge=1, le=1000)] | None = Field(
         default=None, description="Which segment, from 1; all of them if absent."
     )
-    over: Literal["mean", "rms", "smallest", "largest"] | None = Field(
+    over: Literal["mean", "rms", "smallest", "largest", "range"] | None = Field(
         default=None,
         description="How all segments become one figure: rms of an error and mean of anything else "
-        "if absent.",
+        "if absent. range: the source does not say which segment; any may be meant.",
     )
 
     @property

@@ -10,7 +10,7 @@ from .assessment import (
     assess,
     assess_placed,
 )
-from .claims import FormationClaim, FormationQuantity, OpenNumber, Over, measure
+from .claims import FormationClaim, FormationQuantity, OpenNumber, Over, measure, possible
 from .constraints import Bound, ConstraintReport, Constraints, FailureLimit, Limit
 from .dem_verdict import DemRequest, DemVerdict, FailedDemand, dem_verdict, looks_for
 from .design_space import DesignSpace, DesignVariables
@@ -60,6 +60,7 @@ __all__ = [
     "findings",
     "looks_for",
     "measure",
+    "possible",
     "refuted",
     "search",
     "structured_designs",

@@ -85,6 +85,9 @@ class Over(StrEnum):
     RMS = "rms"
     SMALLEST = "smallest"
     LARGEST = "largest"
+    RANGE = "range"
+    """Their mean, and what is possible from the smallest to the largest: where the source does not
+    say which segment it means."""
 
 
 _REDUCE: dict[Over, Callable[[Array], float]] = {
@@ -92,6 +95,7 @@ _REDUCE: dict[Over, Callable[[Array], float]] = {
     Over.RMS: lambda values: float(np.sqrt(np.mean(values**2))),
     Over.SMALLEST: lambda values: float(np.min(values)),
     Over.LARGEST: lambda values: float(np.max(values)),
+    Over.RANGE: lambda values: float(np.mean(values)),
 }
 
 _OF_PAIR: dict[FormationQuantity, Callable[[Problem, ImagePair], Array]] = {
@@ -135,7 +139,7 @@ class FormationClaim(PrintedFigure):
 def measure(
     claim: FormationClaim, problem: Problem, assessments: Sequence[Assessment], *, cell: Cell
 ) -> float:
-    """Compute what a printed figure is about.
+    """Compute what a printed figure is about; the first of `possible`.
 
     Parameters
     ----------
@@ -153,13 +157,27 @@ def measure(
     ValueError
         If the claim is about a formation or a pair that is not there.
     """
+    return possible(claim, problem, assessments, cell=cell)[0]
+
+
+def possible(
+    claim: FormationClaim, problem: Problem, assessments: Sequence[Assessment], *, cell: Cell
+) -> tuple[float, ...]:
+    """All that a printed figure may be about: one value, and the ends of a range over the segments.
+
+    Parameters
+    ----------
+    claim, problem, assessments, cell : as for `measure`.
+    """
     with np.errstate(divide="ignore", invalid="ignore"):
         values = _values(claim, problem, _named(claim, assessments), cell)
     if claim.segment is not None:
-        value = float(values[claim.segment])
+        found = [float(values[claim.segment])]
     else:
-        value = _REDUCE[claim.over](values)
-    return value if math.isfinite(value) else math.nan
+        found = [_REDUCE[claim.over](values)]
+        if claim.over is Over.RANGE:
+            found += [float(values.min()), float(values.max())]
+    return tuple(value if math.isfinite(value) else math.nan for value in found)
 
 
 def _named(claim: FormationClaim, assessments: Sequence[Assessment]) -> Assessment:

@@ -122,13 +122,16 @@ def pair_name(problem: Problem, assessment: Assessment, images: tuple[int, int])
     (first, one), (second, other) = (_origin(problem, assessment, image) for image in images)
     if not assessment.acquisitions:
         return _own_pair_name(problem, assessment, (one, other))
+
+    def named(acquisition: int, own: tuple[int, int]) -> str:
+        label = assessment.acquisitions[acquisition]
+        if len(problem.radar.images) == 2:  # its only pair
+            return label
+        return f"{label}: {_own_pair_name(problem, assessment, own)}"
+
     if images[0] == 0 or first == second:
-        label = assessment.acquisitions[second]
-        return f"{label}: {_own_pair_name(problem, assessment, (one, other))}"
-    return " − ".join(
-        f"{assessment.acquisitions[acquisition]}: {_own_pair_name(problem, assessment, (0, image))}"
-        for acquisition, image in ((second, other), (first, one))
-    )
+        return named(second, (one, other))
+    return f"{named(second, (0, other))} − {named(first, (0, one))}"
 
 
 def _own_pair_name(problem: Problem, assessment: Assessment, images: tuple[int, int]) -> str:

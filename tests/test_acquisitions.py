@@ -37,6 +37,7 @@ from insar import (
     unwrapping_ladder,
 )
 from reports.json_result import result_schema
+from reports.reading import pair_name
 
 SCENE = Scene.broadside_strip(
     times=[0.0, 1.0], look_angle=math.radians(32.0), altitude=514e3, earth_radius=6378137.0
@@ -489,3 +490,47 @@ def test_geometry_of_a_placed_pair_is_that_of_its_positions():
     one = result.formation
     geometry = pair_geometry(one.scene_positions, result.problem.scene, radar=result.problem.radar)
     assert_allclose(geometry.height_of_ambiguity[:, 0], one.pairs[0].height_of_ambiguity)
+
+
+def test_names_of_pairs_say_which_acquisition_they_are_of():
+    result = outcome(formation={"acquisitions": ACQUISITIONS})
+    names = [
+        pair_name(result.problem, result.formation, rung.images)
+        for rung in result.formation.unwrapping.rungs
+    ]
+    assert names == ["short − long", "long"]
+    three = [
+        {"label": one["label"], "table": [*one["table"], {"perpendicular_baseline_m": 100}]}
+        for one in ACQUISITIONS
+    ]
+    result = outcome(formation={"acquisitions": three})
+    assert pair_name(result.problem, result.formation, (0, 3)) == "short: S1 · S2"
+    assert pair_name(result.problem, result.formation, (1, 2)) == "long: S2 · S3"
+    assert pair_name(result.problem, result.formation, (2, 4)) == "short: S1 · S3 − long: S1 · S3"
+
+
+def test_a_claim_over_a_range_holds_for_any_segment_that_may_be_meant():
+    """2 km at incidences of 25° and 45°: what height of ambiguity is meant?"""
+    table = {
+        "times_s": [0, 0],
+        "slant_range_km": [562.5, 701.6],
+        "look_deg": [22.9, 40.9],
+        "incidence_deg": [24.9, 45.0],
+        "azimuth_deg": [-90, -90],
+    }
+    claim = {
+        "text": "t",
+        "printed": "3.8 m",
+        "quantity": "height_of_ambiguity",
+        "over": "range",
+        "value": 3.8,
+        "tolerance": 0.05,
+    }
+    formation = {"table": [{}, {"perpendicular_baseline_m": 2000}]}
+    blocks = {"scene": {"table": table}, "formation": formation}
+    (open_one,) = outcome(**blocks, claims=[claim]).claims
+    # λ r sin θ/2000 by hand: 3.671 m and 7.690 m.
+    assert (open_one.lowest, open_one.highest) == pytest.approx((3.671, 7.690), abs=2e-3)
+    assert open_one.verdict is Verdict.OPEN
+    (wide,) = outcome(**blocks, claims=[claim | {"value": 5.5, "tolerance": 2.5}]).claims
+    assert wide.verdict is Verdict.HOLDS

@@ -20,7 +20,7 @@ from optimize import (
     assess_placed,
     dem_verdict,
     findings,
-    measure,
+    possible,
     refuted,
 )
 
@@ -89,14 +89,13 @@ def _claims(setup: EvaluateSetup, shown: Sequence[Assessment]) -> tuple[Claim, .
     for corner in setup.corners:
         formation, acquisitions, compare = _assessments(corner)
         ends.append((corner.problem, corner.dem.cell, (formation, *acquisitions, *compare)))
-    return tuple(
-        judged_range(
-            claim,
-            measure(claim, setup.problem, shown, cell=setup.dem.cell),
-            [measure(claim, problem, found, cell=cell) for problem, cell, found in ends],
-        )
-        for claim in setup.claims
-    )
+    judged = []
+    for claim in setup.claims:
+        value, *range_ = possible(claim, setup.problem, shown, cell=setup.dem.cell)
+        for problem, cell, found in ends:
+            range_ += possible(claim, problem, found, cell=cell)
+        judged.append(judged_range(claim, value, range_))
+    return tuple(judged)
 
 
 def _formation(setup: EvaluateSetup) -> tuple[Assessment, tuple[Assessment, ...]]:

@@ -120,7 +120,8 @@ def claims_text(claims: Sequence[Claim], inputs: str) -> tuple[Text, ...]:
     if counts[Verdict.FAILS]:
         tail += f", {counts[Verdict.FAILS]} do not"
     if counts[Verdict.OPEN]:
-        tail += f", {counts[Verdict.OPEN]} depend on what is not published"
+        verb = "depends" if counts[Verdict.OPEN] == 1 else "depend"
+        tail += f", {counts[Verdict.OPEN]} {verb} on what is not published"
     if counts[Verdict.UNKNOWN]:
         tail += f", {counts[Verdict.UNKNOWN]} cannot be computed from them"
     return ((Strong(text), f"{tail}: the next section gives each with its reason."),)

@@ -288,7 +288,7 @@ def comparison_section(best: Assessment, others: Sequence[Assessment]) -> Sectio
             Column("relative_rms_m", "Relative", "m", numbers),
             *_unwrapping_column(frame),
             Column("baseline_over_critical", ("largest ", *OVER_CRITICAL), "", to_decimals(3)),
-            Column("min_separation_m", "Closest approach", "m", to_decimals(1)),
+            *_separation_column(frame),
             Column("limits", "Limits"),
         ),
         "Formations side by side, all assessed with the same model and limits.",
@@ -296,6 +296,13 @@ def comparison_section(best: Assessment, others: Sequence[Assessment]) -> Sectio
     )
     shown = [formation_table(one) if one.motion else placed_table(one) for one in others]
     return Section("comparison", "Comparison", (table, *shown))
+
+
+def _separation_column(frame: pd.DataFrame) -> tuple[Column, ...]:
+    """The closest approach, where the orbits of some formation are known."""
+    if frame["min_separation_m"].isna().all():
+        return ()
+    return (Column("min_separation_m", "Closest approach", "m", to_decimals(1)),)
 
 
 def placed_table(assessment: Assessment) -> Table:
