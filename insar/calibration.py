@@ -68,19 +68,9 @@ class Calibration:
             raise ValueError("over = 'pixel': a calibration is of a scene at least")
 
     @property
-    def count_across(self) -> int:
-        """Control points across the swath, or tracks."""
-        return int(self.swath / self.spacing_across * (1.0 + 1e-12))
-
-    @property
-    def count_along(self) -> int:
-        """Control points along the length of each line of them."""
-        return int(self.length / self.spacing_along * (1.0 + 1e-12))
-
-    @property
-    def count(self) -> int:
-        """Control points of one adjustment."""
-        return self.count_across * self.count_along
+    def count(self) -> float:
+        """Control points of one adjustment; need not be whole, as a mean over many areas."""
+        return self.swath / self.spacing_across * self.length / self.spacing_along
 
     def removes(self, scale: Scale) -> bool:
         """Whether errors of a scale are the same for everything that one adjustment covers."""
@@ -91,18 +81,24 @@ class Calibration:
 
         Returns
         -------
-        (3, 3) — diag(n, n s_y²(n_y² − 1)/12, n s_x²(n_x² − 1)/12) for points that are centered
-        in the area, s the spacing and n_y, n_x the counts [1, m², m²]. One line of points alone
-        tells no tilt across it.
+        (3, 3) — n diag(1, (w² − s_y²)/12, (l² − s_x²)/12) for a grid that is centered in the area,
+        w and l its extents, s the spacings and n = wl/(s_y s_x) the count [1, m², m²]: the sum
+        over the points where the counts are whole, and a smooth function of the spacing between.
+        One line of points alone tells no tilt across it.
         """
-        across = self.spacing_across**2 * (self.count_across**2 - 1) / 12.0
-        along = self.spacing_along**2 * (self.count_along**2 - 1) / 12.0
+        across = (self.swath**2 - self.spacing_across**2) / 12.0
+        along = (self.length**2 - self.spacing_along**2) / 12.0
         return np.diag([1.0, across, along]) * self.count
 
     def points(self) -> Array:
         """Places of the control points, (n, 2): across and along track from the middle [m]."""
-        y = self.spacing_across * (np.arange(self.count_across) - (self.count_across - 1) / 2.0)
-        x = self.spacing_along * (np.arange(self.count_along) - (self.count_along - 1) / 2.0)
+        counts = (self.swath / self.spacing_across, self.length / self.spacing_along)
+        y, x = (
+            spacing * (np.arange(round(count)) - (round(count) - 1) / 2.0)
+            for spacing, count in zip(
+                (self.spacing_across, self.spacing_along), counts, strict=True
+            )
+        )
         grid = np.meshgrid(y, x, indexing="ij")
         return np.stack([axis.ravel() for axis in grid], axis=-1)
 

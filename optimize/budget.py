@@ -25,7 +25,7 @@ class BudgetItem(NamedTuple):
     unit : of its value; empty for a pure number.
     value : as it is.
     better : +1 if more of it is better, −1 if less, 0 if either may be.
-    changed : problem and states with the item multiplied by a factor; raises ValueError where it
+    changed : problem and positions with the item multiplied by a factor; raises ValueError where it
         can't be.
     """
 
@@ -36,18 +36,18 @@ class BudgetItem(NamedTuple):
     changed: Callable[[float], tuple[Problem, Array]]
 
 
-def budget_items(problem: Problem, states: ArrayLike) -> tuple[BudgetItem, ...]:
+def budget_items(problem: Problem, positions: ArrayLike) -> tuple[BudgetItem, ...]:
     """Items of a budget that are not zero, and the scale of the baselines.
 
     Parameters
     ----------
     problem : scene, radar, errors and limits.
-    states : (N, 6) — the formation, RTN at t = 0 [m, m/s].
+    positions : (S, N, 3) — of the formation, RTN at the scene's times [m].
     """
-    state = np.asarray(states, dtype=np.float64)
+    place = np.asarray(positions, dtype=np.float64)
 
     def of_problem(make: Callable[[float], Problem]) -> Callable[[float], tuple[Problem, Array]]:
-        return lambda factor: (make(factor), state)
+        return lambda factor: (make(factor), place)
 
     items = [
         BudgetItem(name, unit, value, better, of_problem(make))
@@ -74,7 +74,7 @@ def budget_items(problem: Problem, states: ArrayLike) -> tuple[BudgetItem, ...]:
                 ),
             )
         )
-    items.append(BudgetItem("baselines", "", 1.0, 0, lambda factor: (problem, factor * state)))
+    items.append(BudgetItem("baselines", "", 1.0, 0, lambda factor: (problem, factor * place)))
     return tuple(items)
 
 

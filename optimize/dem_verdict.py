@@ -93,14 +93,14 @@ class DemVerdict:
 
 
 def dem_verdict(
-    problem: Problem, states: ArrayLike, *, label: str, request: DemRequest
+    problem: Problem, positions: ArrayLike, *, label: str, request: DemRequest
 ) -> DemVerdict:
     """Judge the elevation model of a formation.
 
     Parameters
     ----------
     problem : scene, radar, errors and limits.
-    states : (N, 6) — the formation, RTN at t = 0 [m, m/s].
+    positions : (S, N, 3) — of the formation, RTN at the scene's times [m].
     label : what it is called in the report.
     request : what is asked of the model.
 
@@ -108,9 +108,9 @@ def dem_verdict(
     -------
     DemVerdict
     """
-    state, scene = np.asarray(states, dtype=np.float64), problem.scene
+    place, scene = np.asarray(positions, dtype=np.float64), problem.scene
     accuracy = height_accuracy(
-        problem.population(state[None]).positions[0],
+        place,
         scene,
         radar=problem.radar,
         errors=problem.errors,
@@ -122,7 +122,7 @@ def dem_verdict(
         judge(accuracy, specification, slope=scene.slope, posting=posting)
         for specification in request.specifications
     )
-    study = Study(problem=problem, states=state, cell=request.cell)
+    study = Study(problem=problem, positions=place, cell=request.cell)
     return DemVerdict(
         label=label,
         request=request,

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
 
-from insar import Cell, height_accuracy, unwrapping_ladder
+from insar import Cell, height_accuracy, height_error_of, phase_model, unwrapping_ladder
 
 from .budget import BudgetItem, budget_items
 from .problem import Problem
@@ -93,21 +93,21 @@ class Study:
     Attributes
     ----------
     problem : scene, radar, errors and limits.
-    states : (N, 6) — the formation, RTN at t = 0 [m, m/s].
+    positions : (S, N, 3) — of the formation, RTN at the scene's times [m].
     cell : what the relative error refers to.
     known : quantities that were computed already, by item and factor; several demands ask for the
         same ones.
     """
 
     problem: Problem
-    states: Array
+    positions: Array
     cell: Cell
     known: dict[tuple[str, float], dict[Quantity, Array]] = field(default_factory=dict, repr=False)
 
     @property
     def items(self) -> tuple[BudgetItem, ...]:
         """What can be changed."""
-        return budget_items(self.problem, self.states)
+        return budget_items(self.problem, self.positions)
 
     def changed(self, item: BudgetItem, factor: float) -> dict[Quantity, Array]:
         """Quantities with an item multiplied by a factor; empty where it can't be.
@@ -120,43 +120,38 @@ class Study:
         key = (item.name, factor)
         if key not in self.known:
             try:
-                problem, states = item.changed(factor)
-                self.known[key] = quantities(problem, states, self.cell)
+                problem, positions = item.changed(factor)
+                self.known[key] = quantities(problem, positions, self.cell)
             except ValueError:  # such a radar or calibration can't be
                 self.known[key] = {}
         return self.known[key]
 
 
-def quantities(problem: Problem, states: ArrayLike, cell: Cell) -> dict[Quantity, Array]:
+def quantities(problem: Problem, positions: ArrayLike, cell: Cell) -> dict[Quantity, Array]:
     """Errors of a formation: those of the segments, and the total of the region.
 
     Parameters
     ----------
     problem : scene, radar, errors and limits.
-    states : (N, 6) — RTN at t = 0 [m, m/s].
+    positions : (S, N, 3) — RTN positions at the scene's times [m].
     cell : what the relative error refers to.
 
     Returns
     -------
     quantity → (S,), or (1,) for the total.
     """
-    population = problem.population(np.asarray(states)[None])
-    accuracy = height_accuracy(
-        population.positions[0],
-        problem.scene,
-        radar=problem.radar,
-        errors=problem.errors,
-        cell=cell,
-    )
+    scene, radar, errors = problem.scene, problem.radar, problem.errors
+    accuracy = height_accuracy(positions, scene, radar=radar, errors=errors, cell=cell)
+    model = phase_model(positions, scene, radar=radar, errors=errors)
+    region = height_error_of(model, scene=scene, radar=radar, errors=errors).region
     found = {
-        Quantity.TOTAL: problem.height_error(population).region,
+        Quantity.TOTAL: np.atleast_1d(region),
         Quantity.RELATIVE: accuracy.relative_90,
         Quantity.ABSOLUTE: accuracy.absolute_90,
     }
     prior = problem.constraints.prior_height_std
     if prior is not None:
-        ladder = unwrapping_ladder(population.model, prior_height_std=prior)
-        found[Quantity.FAILURE] = ladder.failure[0]
+        found[Quantity.FAILURE] = unwrapping_ladder(model, prior_height_std=prior).failure
     return found
 
 
@@ -198,7 +193,9 @@ def remedies(study: Study, quantity: Quantity, limit: ArrayLike) -> tuple[Remedy
     change first.
     """
     allowed = np.asarray(limit, dtype=np.float64)
-    start = float(np.max(quantities(study.problem, study.states, study.cell)[quantity] / allowed))
+    start = float(
+        np.max(quantities(study.problem, study.positions, study.cell)[quantity] / allowed)
+    )
     found: list[tuple[float, Remedy]] = []
     for item in study.items:
         factor, changes = _nearest(_ratio(study, item, quantity, allowed), start, item.better)

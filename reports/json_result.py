@@ -10,6 +10,7 @@ import numpy as np
 from optimize import Assessment, EvaluateResult, ImagePair, OptimizeResult, Problem
 
 from .json_claims import claims_json
+from .json_dem import dem_json
 from .json_numbers import Json, finite, finite_list
 from .json_observation import observation_json
 from .json_refutation import refutation_json
@@ -100,6 +101,7 @@ def optimize_json(result: OptimizeResult) -> Json:
             }
             for record in search.history
         ],
+        "dem": dem_json(result.dem),
         "certificate": None,
         "warnings": [*result.notices, *result.warnings],
     }
@@ -115,6 +117,7 @@ def evaluate_json(result: EvaluateResult) -> Json:
             "formation": assessment_json(problem, result.formation),
             "acquisitions": [assessment_json(problem, one) for one in result.acquisitions],
             "compare": [assessment_json(problem, one) for one in result.compare],
+            "dem": dem_json(result.dem),
             "claims": claims_json(result.claims),
             "open": [one._asdict() for one in result.opened],
         },

@@ -18,6 +18,9 @@ _SOURCES = {
     "azimuth": "azimuth",
     "range": "slant range",
     "synchronization": "synchronization",
+    "troposphere": "troposphere",
+    "ionosphere": "ionosphere",
+    "ionosphere_gradient": "gradient of the ionosphere",
 }
 
 

@@ -364,3 +364,18 @@ def test_atmosphere_adds_to_the_total_whatever_the_formation():
         assert error.total**2 == pytest.approx(clear.total**2 + added)
         assert error.relative == pytest.approx(clear.relative)
         assert error.terms["troposphere"] == pytest.approx(2.4 * np.tan(STRIP.incidence) ** 2)
+
+
+def test_residual_is_smooth_in_the_spacing():
+    """No jump where a point falls out of the area: elasticities need a derivative."""
+    prior = np.diag([4.0, 1e-8, 0.0])
+    around = [
+        area_variance(
+            calibrated_covariance(prior, replace(CALIBRATION, spacing_across=10e3 * (1 + step))),
+            swath=30e3,
+            length=100e3,
+        )
+        for step in (-1e-4, 0.0, 1e-4)
+    ]
+    assert np.ptp(around) < 1e-3 * around[1]
+    assert np.all(np.diff(around) > 0.0)

@@ -17,6 +17,7 @@ from insar import (
     Scale,
     Scene,
     SharedBy,
+    height_error,
     pair_critical_baseline,
     pair_geometry,
 )
@@ -52,7 +53,8 @@ def _study(radius=150.0, *, radar=RADAR, prior=4.0, **errors):
         errors=ErrorBudget(**errors),
         constraints=Constraints(prior_height_std=prior),
     )
-    return Study(problem=problem, states=states, cell=Cell())
+    positions = problem.population(states[None]).positions[0]
+    return Study(problem=problem, positions=positions, cell=Cell())
 
 
 FULL = {
@@ -66,7 +68,7 @@ FULL = {
 def test_elasticity_of_a_source_is_its_share_of_the_variance():
     """The weights are optimal, so only the direct change counts (envelope theorem)."""
     study = _study(**FULL)
-    error = study.problem.height_error(study.problem.population(study.states[None]))
+    error = height_error(study.positions, SCENE, radar=RADAR, errors=study.problem.errors)
     total = np.sum(error.total**2)
     found = {one.item: one.elasticities[Quantity.TOTAL] for one in sensitivities(study)}
     for name in FULL:
@@ -87,8 +89,9 @@ def test_elasticities_without_systematic_errors_in_closed_form():
     assert found["snr"][Quantity.TOTAL] == pytest.approx(-(1 + snr) / (1 + 2 * snr), abs=1e-5)
     # Filtering leaves 1 − s of the looks, s = B⊥/B_crit: the error goes as 1/(s √(1 − s)).
     study = _study()
-    positions = study.problem.population(study.states[None]).positions[0]
-    geometry = pair_geometry(positions, SCENE, radar=RADAR, held_constant=HeldConstant.DOPPLER)
+    geometry = pair_geometry(
+        study.positions, SCENE, radar=RADAR, held_constant=HeldConstant.DOPPLER
+    )
     share = (
         np.abs(geometry.perpendicular_baseline[:, 0]) / pair_critical_baseline(SCENE, RADAR)[:, 0]
     )
@@ -98,7 +101,7 @@ def test_elasticities_without_systematic_errors_in_closed_form():
 
 
 def test_what_is_not_there_is_no_item():
-    names = {item.name for item in budget_items(_study().problem, _study().states)}
+    names = {item.name for item in budget_items(_study().problem, _study().positions)}
     assert names == {"snr", "looks", "slant_range_resolution", "prior_height", "baselines"}
     everything = _study(
         **FULL,
@@ -108,7 +111,7 @@ def test_what_is_not_there_is_no_item():
     )
     names |= {*FULL, "azimuth", "ionosphere"}
     names |= {"calibration_spacing", "calibration_accuracy", "calibration_bias"}
-    found = {item.name for item in budget_items(everything.problem, everything.states)}
+    found = {item.name for item in budget_items(everything.problem, everything.positions)}
     assert found == names
 
 
@@ -124,11 +127,11 @@ def _of(found, name):
 
 def test_needed_looks_of_phase_noise_in_closed_form():
     study = _study()
-    worst = quantities(study.problem, study.states, study.cell)[Quantity.RELATIVE].max()
+    worst = quantities(study.problem, study.positions, study.cell)[Quantity.RELATIVE].max()
     found = remedies(study, Quantity.RELATIVE, worst / 3.0)
     # Nine times, but for the few percent by which 16 looks fall short of their bound.
     assert _of(found, "looks").needed == pytest.approx(9.0 * RADAR.looks, rel=0.1)
-    total = quantities(study.problem, study.states, study.cell)[Quantity.TOTAL].max()
+    total = quantities(study.problem, study.positions, study.cell)[Quantity.TOTAL].max()
     exact = _of(remedies(study, Quantity.TOTAL, total / 3.0), "looks").needed
     assert exact == pytest.approx(9.0 * RADAR.looks, rel=0.1)
     # The prior height does not change the error and is no remedy at all.
@@ -138,7 +141,7 @@ def test_needed_looks_of_phase_noise_in_closed_form():
 @pytest.mark.parametrize("quantity", [Quantity.RELATIVE, Quantity.ABSOLUTE])
 def test_needed_values_pass_and_a_little_less_does_not(quantity):
     study = _study(**FULL, calibration=replace(CALIBRATION, over=Scale.SCENE))
-    worst = quantities(study.problem, study.states, study.cell)[quantity].max()
+    worst = quantities(study.problem, study.positions, study.cell)[quantity].max()
     limit = 0.93 * worst
     found = remedies(study, quantity, limit)
     suffices = [remedy for remedy in found if remedy.needed is not None]
@@ -169,7 +172,7 @@ def test_no_item_alone_suffices_where_two_errors_are_too_large():
 
 def test_longer_baselines_pass_and_cost_unwrapping():
     study = _study(radius=30.0)
-    worst = quantities(study.problem, study.states, study.cell)[Quantity.RELATIVE].max()
+    worst = quantities(study.problem, study.positions, study.cell)[Quantity.RELATIVE].max()
     remedy = _of(remedies(study, Quantity.RELATIVE, worst / 4.0), "baselines")
     before = 1.0 - study.changed(study.items[-1], 1.0)[Quantity.FAILURE].max()
     assert remedy.needed == pytest.approx(4.0, rel=0.1)
@@ -193,7 +196,7 @@ def test_looks_of_a_posting_are_those_of_the_worst_segment():
 
 def test_verdict_says_what_passes_what_fails_and_why():
     study = _study(radius=300.0, **FULL, calibration=CALIBRATION)
-    verdict = dem_verdict(study.problem, study.states, label="best", request=REQUEST)
+    verdict = dem_verdict(study.problem, study.positions, label="best", request=REQUEST)
     third, fourth = verdict.judgments
     assert third.passed
     assert not fourth.passed
@@ -206,7 +209,7 @@ def test_verdict_says_what_passes_what_fails_and_why():
     assert "not those of its posting" in text  # 16 looks are stated
     agreed = looks_for(REQUEST, incidence=SCENE.incidence, slope=SCENE.slope)
     fitting = replace(study.problem, radar=replace(RADAR, looks=agreed))
-    verdict = dem_verdict(fitting, study.states, label="best", request=REQUEST)
+    verdict = dem_verdict(fitting, study.positions, label="best", request=REQUEST)
     assert verdict.posting_of_looks == pytest.approx(12.0)
     assert "not those of its posting" not in " ".join(verdict.notes)
 
@@ -214,7 +217,7 @@ def test_verdict_says_what_passes_what_fails_and_why():
 def test_verdict_without_azimuth_resolution_does_not_judge_the_posting():
     study = _study()
     request = DemRequest(specifications=(HRTI3,))
-    verdict = dem_verdict(study.problem, study.states, label="best", request=request)
+    verdict = dem_verdict(study.problem, study.positions, label="best", request=request)
     assert verdict.posting is None
     assert "posting is not judged" in verdict.notes[0]
     assert {c.quantity for c in verdict.judgments[0].criteria} == {Demand.RELATIVE, Demand.ABSOLUTE}
@@ -224,7 +227,7 @@ def test_verdict_on_a_formation_that_measures_nothing():
     study = _study(radius=0.0, **FULL)
     mine = Specification(name="mine", relative_90=1.0)
     request = DemRequest(specifications=(mine,))
-    verdict = dem_verdict(study.problem, study.states, label="best", request=request)
+    verdict = dem_verdict(study.problem, study.positions, label="best", request=request)
     assert not verdict.judgments[0].passed
     assert verdict.failed[0].remedies == ()
     assert all(np.isnan(one.elasticities[Quantity.TOTAL]) for one in verdict.sensitivities)

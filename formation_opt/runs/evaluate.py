@@ -48,9 +48,10 @@ def run(study: EvaluateStudy, setup: EvaluateSetup, options: Options) -> Outcome
     count = len(acquisitions)
     acquisitions, compare = tuple(others[:count]), tuple(others[count:])
     dem = None
-    if formation.motion is not None:
-        states = formation.motion.states
-        dem = dem_verdict(setup.problem, states, label=formation.label, request=setup.dem)
+    if not acquisitions:
+        dem = dem_verdict(
+            setup.problem, formation.scene_positions, label=formation.label, request=setup.dem
+        )
     cautions = scene_cautions(setup.observation)
     result = EvaluateResult(
         problem=setup.problem,

@@ -123,7 +123,7 @@ def _judged(judgment: Judgment) -> str:
         return "pass"
     worst = max(judgment.criteria, key=lambda criterion: criterion.ratio)
     what = {"posting": "posting", "relative_90": "relative", "absolute_90": "absolute"}
-    return f"fail: {what[worst.quantity.value]} {meters(worst.value)} > {worst.limit:g} m"
+    return f"fail: {what[worst.quantity.value]} {worst.value:.3g} m > {worst.limit:g} m"
 
 
 def _limits(assessment: Assessment) -> str:

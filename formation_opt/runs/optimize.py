@@ -63,7 +63,7 @@ def run(study: OptimizeStudy, setup: OptimizeSetup, options: Options) -> Outcome
             f"The search was interrupted after {found.evaluations} formations: this is the best so "
             "far, not the best there is.",
         )
-    dem = dem_verdict(setup.problem, best.flown.states, label=best.label, request=setup.dem)
+    dem = dem_verdict(setup.problem, best.scene_positions, label=best.label, request=setup.dem)
     cautions = scene_cautions(setup.observation)
     result = OptimizeResult(
         problem=setup.problem,

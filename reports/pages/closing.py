@@ -88,6 +88,7 @@ def _setting(problem: Problem, critical_baseline: float, study: StudyInfo) -> li
                 ("range", errors.range, "m"),
                 ("azimuth", errors.azimuth, "rad"),
                 ("synchronization", errors.synchronization, "rad"),
+                ("troposphere", errors.troposphere, "m of zenith delay"),
             )
         ),
         ("weighting", str(errors.weighting)),
@@ -126,7 +127,7 @@ def _error(source: ErrorSource, unit: str) -> str:
         return "none"
     return (
         f"{quantity(plain(source.std), unit)}, shared by {source.shared_by}, "
-        f"constant over the {source.scale}"
+        f"constant over the {str(source.scale).replace('_', ' ')}"
     )
 
 

@@ -16,6 +16,7 @@ from ..tables import formation_frame, height_error_frame, positions_frame
 from ..tables_steering import claims_frame
 from . import sections
 from .closing import closing_sections, formation_setting
+from .dem import dem_section, limits_section
 from .interferometry import pairs_section, unwrapping_section
 from .methods import methods_section
 from .mission_claims import mission_claims_section
@@ -51,6 +52,8 @@ def document(result: EvaluateResult, study: StudyInfo, provenance: Provenance) -
         unwrapping_section(problem, [formation, *others], ladder=result.formation),
         refutation_section(problem, single[0], (*single[1:], *result.compare)),
         sections.attribution_section([formation, *others[: min(2, len(apart))]]),
+        dem_section(problem, result.dem),
+        limits_section(problem, result.dem),
         sections.constraints_section([result.formation]),
         sections.comparison_section(result.formation, result.compare),
         mission_claims_section(result),

@@ -18,6 +18,7 @@ from ..tables import formation_frame, height_error_frame
 from ..wording import counted, meters
 from . import sections
 from .closing import closing_sections, formation_setting
+from .dem import dem_section, limits_section
 from .interferometry import pairs_section, unwrapping_section
 from .methods import methods_section
 from .observation import observation_section, unseen
@@ -51,6 +52,8 @@ def document(result: OptimizeResult, study: StudyInfo, provenance: Provenance) -
         unwrapping_section(problem, [initial, best, *others], ladder=result.best),
         refutation_section(problem, result.best, (result.initial, *result.compare)),
         sections.attribution_section([initial, best]),
+        dem_section(problem, result.dem),
+        limits_section(problem, result.dem),
         sections.constraints_section([result.best, result.initial]),
         sections.comparison_section(result.best, result.compare),
         methods_section(problem, search=result.search, observation=study.observation),
