@@ -93,16 +93,24 @@ class DemVerdict:
 
 
 def dem_verdict(
-    problem: Problem, positions: ArrayLike, *, label: str, request: DemRequest
+    problem: Problem,
+    positions: ArrayLike,
+    *,
+    label: str,
+    request: DemRequest,
+    combined: bool = False,
 ) -> DemVerdict:
     """Judge the elevation model of a formation.
 
     Parameters
     ----------
     problem : scene, radar, errors and limits.
-    positions : (S, N, 3) — of the formation, RTN at the scene's times [m].
+    positions : (S, N, 3) — of the formation, RTN at the scene's times [m]; (A, S, N, 3) of
+        acquisitions that are combined.
     label : what it is called in the report.
     request : what is asked of the model.
+    combined : whether the positions are of several acquisitions. Their sensitivities are not
+        computed.
 
     Returns
     -------
@@ -115,6 +123,7 @@ def dem_verdict(
         radar=problem.radar,
         errors=problem.errors,
         cell=request.cell,
+        combined=combined,
     )
     given = _posting_of_looks(problem, request)
     posting = given if request.posting is None else request.posting
@@ -122,7 +131,7 @@ def dem_verdict(
         judge(accuracy, specification, slope=scene.slope, posting=posting)
         for specification in request.specifications
     )
-    study = Study(problem=problem, positions=place, cell=request.cell)
+    study = None if combined else Study(problem=problem, positions=place, cell=request.cell)
     return DemVerdict(
         label=label,
         request=request,
@@ -131,7 +140,7 @@ def dem_verdict(
         posting_of_looks=given,
         judgments=judgments,
         failed=_failed(study, judgments),
-        sensitivities=sensitivities(study),
+        sensitivities=() if study is None else sensitivities(study),
         notes=_notes(problem, request, posting),
     )
 
@@ -179,16 +188,20 @@ def _posting_of_looks(problem: Problem, request: DemRequest) -> float | None:
     return float(posting.max())
 
 
-def _failed(study: Study, judgments: tuple[Judgment, ...]) -> tuple[FailedDemand, ...]:
+def _failed(study: Study | None, judgments: tuple[Judgment, ...]) -> tuple[FailedDemand, ...]:
     found = []
     for judgment in judgments:
         for criterion in judgment.criteria:
             if criterion.passed:
                 continue
             tried: tuple[Remedy, ...] = ()
-            limit = _limits(study, judgment.specification, criterion.quantity)
-            if limit is not None and np.isfinite(criterion.value):
-                tried = remedies(study, Quantity(criterion.quantity.value), limit)
+            if study is not None and np.isfinite(criterion.value):
+                limit = _limits(study, judgment.specification, criterion.quantity)
+                tried = (
+                    ()
+                    if limit is None
+                    else remedies(study, Quantity(criterion.quantity.value), limit)
+                )
             found.append(FailedDemand(judgment.specification.name, criterion, tried))
     return tuple(found)
 

@@ -21,9 +21,11 @@ import pytest
 
 from formation import Orbit, equally_spaced, ground_track_circular
 from insar import ErrorBudget, ErrorSource, Radar, Scene, SharedBy, one_transmitter, ping_pong
+from insar.dem import DTED2, HRTI4, Resolution, Specification
 from optimize import (
     Assessment,
     Constraints,
+    DemRequest,
     DesignSpace,
     EvaluateResult,
     FailureLimit,
@@ -32,15 +34,16 @@ from optimize import (
     Problem,
     SearchSettings,
     assess,
+    dem_verdict,
     search,
 )
 from reports import Provenance, StudyInfo, write_report
-from reports.document import Strong, Symbol
+from reports.document import Figure, Strong, Symbol
 from reports.figures.convergence import convergence_figure
 from reports.figures.orbits import half_extents
 from reports.figures.orbits_interactive import interactive_orbits
 from reports.html import html_bytes
-from reports.json_result import result_schema
+from reports.json_result import result_json, result_schema
 from reports.pages import page_of
 from reports.pdf import pdf_bytes
 from reports.reading import active, drawn_baselines, listed_pairs
@@ -333,6 +336,46 @@ def test_json_keeps_its_contract(result: OptimizeResult, tmp_path: Path) -> None
     assert document["warnings"] == ["Stopped early.", "Check the prior DEM."]
 
 
+@pytest.fixture(scope="module")
+def judged(result: OptimizeResult) -> OptimizeResult:
+    """The result with an elevation model that passes one class and fails two."""
+    mine = Specification(name="mine", relative_90=0.9 * _relative(result), absolute_90=1e-4)
+    request = DemRequest(
+        posting=12.0,
+        resolution=Resolution(slant_range=3.0, azimuth=3.0),
+        specifications=(DTED2, HRTI4, mine),
+    )
+    positions = result.best.scene_positions
+    verdict = dem_verdict(result.problem, positions, label="best", request=request)
+    return dataclasses.replace(result, dem=verdict)
+
+
+def _relative(result: OptimizeResult) -> float:
+    plain = dem_verdict(
+        result.problem, result.best.scene_positions, label="best", request=DemRequest()
+    )
+    return float(plain.accuracy.relative_90.max())
+
+
+def test_elevation_model_is_judged_in_words_and_numbers(judged: OptimizeResult) -> None:
+    page = page_of(judged)
+    found = page.document(judged, study_info(), PROVENANCE)
+    sections = {section.key: section for section in found.sections}
+    callout = sections["dem"].blocks[0]
+    assert callout.title == "The elevation model passes DTED-2 and fails HRTI-4, mine"
+    assert any("It would pass with" in line for line in callout.paragraphs)
+    assert any("No single item of the budget" in line for line in callout.paragraphs)
+    figures = [b for b in sections["improvements"].blocks if isinstance(b, Figure)]
+    assert len(figures) == 1
+    text = result_json(page.json(judged), study=study_info(), provenance=PROVENANCE)
+    document = json.loads(text)
+    jsonschema.validate(document, result_schema())
+    passed = [one["passed"] for one in document["dem"]["judgments"]]
+    assert passed == [True, False, False]
+    assert document["dem"]["relative_90_m"] == float(judged.dem.accuracy.relative_90.max())
+    assert "It would pass with" in rendered_html(judged, study_info())
+
+
 @pytest.mark.parametrize(
     "break_it",
     [
@@ -349,8 +392,6 @@ def test_json_keeps_its_contract(result: OptimizeResult, tmp_path: Path) -> None
 )
 def test_schema_refuses_what_breaks_the_contract(result: OptimizeResult, break_it) -> None:
     page = page_of(result)
-    from reports.json_result import result_json
-
     text = result_json(page.json(result), study=study_info(), provenance=PROVENANCE)
     document = copy.deepcopy(json.loads(text))
     break_it(document)

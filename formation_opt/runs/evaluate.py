@@ -47,11 +47,13 @@ def run(study: EvaluateStudy, setup: EvaluateSetup, options: Options) -> Outcome
     )
     count = len(acquisitions)
     acquisitions, compare = tuple(others[:count]), tuple(others[count:])
-    dem = None
-    if not acquisitions:
-        dem = dem_verdict(
-            setup.problem, formation.scene_positions, label=formation.label, request=setup.dem
-        )
+    dem = dem_verdict(
+        setup.problem,
+        formation.scene_positions,
+        label=formation.label,
+        request=setup.dem,
+        combined=bool(acquisitions),
+    )
     cautions = scene_cautions(setup.observation)
     result = EvaluateResult(
         problem=setup.problem,
