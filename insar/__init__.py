@@ -7,6 +7,7 @@ Vectors are RTN (R radial outward, T along-track, N along the orbit normal); SI 
 from .accuracy import Cell, HeightAccuracy, height_accuracy
 from .acquisitions import combine_acquisitions
 from .atmosphere import Ionosphere
+from .bands import BandCell, band_cells
 from .baselines import (
     PairGeometry,
     critical_baseline,
@@ -17,7 +18,7 @@ from .baselines import (
 )
 from .calibration import Calibration
 from .claims import Claim, PrintedFigure, Relation, Verdict, judged, judged_range
-from .coherence import common_band, snr_coherence
+from .coherence import CoherenceBudget, common_band, image_amplitude, snr_coherence
 from .dataset import to_xarray
 from .errors import (
     BaselineDecorrelation,
@@ -30,8 +31,9 @@ from .errors import (
 )
 from .geometry import line_of_sight
 from .height import HeightError, HeightStatus, height_error, height_error_of
+from .image_model import ImageModel, PairNoise, image_model, pair_coherence
 from .phase_information import filtered_information, fisher_information, pair_phase_variance
-from .phase_model import PhaseModel, pair_coherence, phase_model
+from .phase_model import PhaseModel, phase_model
 from .point_to_point import point_to_point_error, point_to_point_factor
 from .radar import Radar, monostatic, one_transmitter, ping_pong
 from .scene import LookSide, Scene
@@ -47,10 +49,12 @@ from .unwrapping import (
 )
 
 __all__ = [
+    "BandCell",
     "BaselineDecorrelation",
     "Calibration",
     "Cell",
     "Claim",
+    "CoherenceBudget",
     "Decorrelation",
     "ErrorBudget",
     "ErrorSource",
@@ -58,9 +62,11 @@ __all__ = [
     "HeightError",
     "HeightStatus",
     "HeldConstant",
+    "ImageModel",
     "Ionosphere",
     "LookSide",
     "PairGeometry",
+    "PairNoise",
     "PhaseModel",
     "PrintedFigure",
     "Radar",
@@ -72,6 +78,7 @@ __all__ = [
     "UnwrappingTrial",
     "Verdict",
     "Weighting",
+    "band_cells",
     "combine_acquisitions",
     "common_band",
     "critical_baseline",
@@ -82,6 +89,8 @@ __all__ = [
     "height_error",
     "height_error_of",
     "height_of_ambiguity",
+    "image_amplitude",
+    "image_model",
     "judged",
     "judged_range",
     "line_of_sight",

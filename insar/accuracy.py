@@ -22,11 +22,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .acquisitions import combine_acquisitions
-from .baselines import pair_geometry
 from .calibration import area_variance, calibrated_covariance
 from .errors import ErrorBudget
 from .height import common_height_errors, height_error_of, shared_height_responses
-from .phase_model import PhaseModel, pair_coherence, phase_model
+from .image_model import pair_coherence
+from .phase_model import PhaseModel, phase_model
 from .point_to_point import point_to_point_factor
 from .radar import Radar
 from .scale import Scale
@@ -230,13 +230,7 @@ def _pair_factor(
     """Bound of 90 % of the differences of two random errors, over the deviation of one."""
     if errors.phase_std is not None:  # given, as a normal deviation
         return np.full(model.vertical_wavenumber.shape[:-1], math.sqrt(2.0) * NORMAL_90)
-    geometry = pair_geometry(positions, scene, radar=radar, held_constant=errors.held_constant)
-    coherence, looks = pair_coherence(
-        geometry.perpendicular_baseline,
-        scene,
-        radar=radar,
-        baseline_decorrelation=errors.baseline_decorrelation,
-    )
+    coherence, looks = pair_coherence(positions, scene, radar=radar, errors=errors)
     pairs = radar.image_pairs
     if combined:  # the pairs of each acquisition, their images numbered through
         count, others = len(np.asarray(positions)), len(radar.images) - 1

@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 from .atmosphere import Ionosphere
 from .calibration import Calibration
+from .coherence.budget import CoherenceBudget
 from .scale import Scale
 
 __all__ = [
@@ -45,12 +46,12 @@ class Weighting(StrEnum):
 
 
 class BaselineDecorrelation(StrEnum):
-    """What a perpendicular baseline costs in coherence (the geometric coherence model)."""
+    """What baselines cost in coherence (the geometric coherence model)."""
 
     FILTERED = "filtered"
-    """Range spectral filtering to the common band: full coherence, fewer looks."""
+    """Spectral filtering to the common band, in range and azimuth: full coherence, fewer looks."""
     UNFILTERED = "unfiltered"
-    """No filtering: the coherence falls with the common share of the band."""
+    """No filtering: the coherence falls with the common share of the bands."""
     NONE = "none"
     """Neglected (Li 2009)."""
 
@@ -109,8 +110,10 @@ class ErrorBudget:
         It leaves `HeightError` alone, which is of one scene before any adjustment, and acts in
         `insar.accuracy`.
     weighting : what the estimate takes for independent.
-    baseline_decorrelation : what a perpendicular baseline costs in coherence.
+    baseline_decorrelation : what a perpendicular baseline costs in coherence, and a separation
+        along track where the radar has an azimuth resolution.
     held_constant : what a target keeps while its height changes.
+    coherence : the other factors of the coherence.
     phase_std : standard deviation of the phase of every pair instead of the Cramér-Rao bound of
         its coherence; only with ``Weighting.PAIRS`` [rad].
 
@@ -136,6 +139,7 @@ class ErrorBudget:
     weighting: Weighting = Weighting.JOINT
     baseline_decorrelation: BaselineDecorrelation = BaselineDecorrelation.FILTERED
     held_constant: HeldConstant = HeldConstant.DOPPLER
+    coherence: CoherenceBudget = field(default=CoherenceBudget())
     phase_std: float | None = None
 
     def __post_init__(self) -> None:

@@ -9,6 +9,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .bands import band_intervals
+
 Array = NDArray[np.float64]
 
 
@@ -41,37 +43,56 @@ def fisher_information(coherence: ArrayLike, *, looks: float) -> Array:
     return np.asarray(2.0 * looks * (product - np.eye(gamma.shape[-1])), dtype=np.float64)
 
 
-def filtered_information(band_offset: ArrayLike, *, image_coherence: float, looks: float) -> Array:
-    """Joint information of the phases after range spectral filtering to the common bands.
+def filtered_information(
+    band_offset: ArrayLike,
+    *,
+    image_coherence: ArrayLike,
+    looks: float,
+    doppler_offset: ArrayLike | None = None,
+) -> Array:
+    """Joint information of the phases after spectral filtering to the common bands.
 
-    Image i sees the ground band [o_i, o_i + 1]. Each interval of the band is seen by a subset of
-    the images, there at full coherence γ_i γ_j = γ²; its share of the looks gives a subset S the
-    information 2L w²(|S| I − 11ᵀ)/(1 + |S|w) with w = γ²/(1 − γ²), because a coherence matrix of
-    rank one plus a diagonal inverts in closed form. Off the diagonal the sum over intervals is
+    Image i sees the rectangle [o_i, o_i + 1] × [d_i, d_i + 1] of the ground's range and azimuth
+    spectrum. Each part of it is seen by a subset S of the images, there at full coherence γ_i γ_j;
+    with u_i = γ_i²/(1 − γ_i²) and U the sum of u over S, its share of the looks gives
+    X_ij = −2L u_i u_j/(1 + U), because a coherence matrix of rank one plus a diagonal inverts in
+    closed form. Off the diagonal the sum over the parts is
 
-        X_ij = −2L w² ∫ df/(1 + n(f) w)  over the common band of i and j,
+        X_ij = −2L u_i u_j ∫ df/(1 + U(f))  over the common band of i and j:
 
-    n(f) the number of images that see f: one cumulative integral serves all pairs, at a cost of
-    O(M²) instead of O(M⁴).
+    in range alone one cumulative integral serves all pairs, at a cost of O(M²) instead of O(M⁴).
 
     Parameters
     ----------
-    band_offset : (..., M) — shifts o_i of the images' ground bands, in bandwidths.
-    image_coherence : scalar — amplitude γ_i of each image, below 1.
+    band_offset : (..., M) — shifts o_i of the images' range bands, in bandwidths.
+    image_coherence : scalar or (..., M) — amplitude γ_i of each image, below 1.
     looks : scalar — independent looks L at full bandwidth.
+    doppler_offset : (..., M) — shifts d_i of their azimuth bands, in bandwidths; None: all alike.
 
     Returns
     -------
     (..., M, M) — X [1/rad²]; zero between images without a common band.
     """
     offset = np.asarray(band_offset, dtype=np.float64)
+    squared = np.asarray(image_coherence, dtype=np.float64) ** 2
+    weight = np.broadcast_to(squared / (1.0 - squared), offset.shape)
+    if doppler_offset is None:
+        common = _common_integral(offset, weight)
+    else:
+        common = _common_area_integral(offset, np.asarray(doppler_offset), weight)
+    product = weight[..., :, None] * weight[..., None, :]
+    return with_zero_row_sums(-2.0 * looks * product * common)
+
+
+def _common_integral(offset: Array, weight: Array) -> Array:
+    """∫ df/(1 + U(f)) over the common band of each two images, (..., M, M)."""
     count = offset.shape[-1]
-    weight = image_coherence**2 / (1.0 - image_coherence**2)
     edges = np.concatenate([offset, offset + 1.0], axis=-1)
     order = np.argsort(edges, axis=-1, kind="stable")
     sorted_edges = np.take_along_axis(edges, order, axis=-1)
-    seen_by = np.cumsum(np.where(order < count, 1.0, -1.0), axis=-1)
-    density = 1.0 / (1.0 + weight * seen_by[..., :-1])
+    change = np.concatenate([weight, -weight], axis=-1)
+    seen_by = np.cumsum(np.take_along_axis(change, order, axis=-1), axis=-1)
+    density = 1.0 / (1.0 + seen_by[..., :-1])
     cumulative = np.zeros_like(edges)
     np.cumsum(density * np.diff(sorted_edges, axis=-1), axis=-1, out=cumulative[..., 1:])
     integral = np.empty_like(edges)
@@ -80,7 +101,71 @@ def filtered_information(band_offset: ArrayLike, *, image_coherence: float, look
     common = np.minimum(upper[..., :, None], upper[..., None, :]) - np.maximum(
         lower[..., :, None], lower[..., None, :]
     )
-    return _with_zero_row_sums(-2.0 * looks * weight**2 * np.maximum(common, 0.0))
+    return np.asarray(np.maximum(common, 0.0))
+
+
+def _common_area_integral(offset: Array, doppler: Array, weight: Array) -> Array:
+    """∬ df/(1 + U(f)) over the common rectangle of each two images, (..., M, M)."""
+    across, along = band_intervals(offset), band_intervals(doppler)
+    strength = np.swapaxes(across.seen * weight[..., None], -1, -2) @ along.seen
+    density = across.width[..., :, None] * along.width[..., None, :] / (1.0 + strength)
+    first, second = np.triu_indices(offset.shape[-1], k=1)
+    rows = (across.seen[..., first, :] * across.seen[..., second, :]) @ density
+    both = along.seen[..., first, :] * along.seen[..., second, :]
+    integral = np.sum(rows * both, axis=-1)
+    common = np.zeros((*offset.shape, offset.shape[-1]))
+    common[..., first, second] = integral
+    common[..., second, first] = integral
+    return common
+
+
+def cell_information(
+    coherence: ArrayLike,
+    *,
+    looks: float,
+    band_offset: ArrayLike,
+    doppler_offset: ArrayLike | None = None,
+) -> Array:
+    """Joint information after filtering, of images with any coherence matrix.
+
+    Where `filtered_information` has a closed form, this inverts the matrix of the images that see
+    a part of the spectrum, part after part.
+
+    Parameters
+    ----------
+    coherence : (..., M, M) — Hermitian positive-definite Γ of the parts that images have in common.
+    looks : scalar — independent looks L at full bandwidth.
+    band_offset, doppler_offset : (..., M) — as for `filtered_information`.
+
+    Returns
+    -------
+    (..., M, M) — X = Σ 2L·area·(Re(Γ_S∘(Γ_S⁻¹)ᵀ) − I) [1/rad²].
+
+    Raises
+    ------
+    numpy.linalg.LinAlgError
+        If a matrix is singular (two images fully coherent).
+    """
+    gamma = np.asarray(coherence)
+    count = gamma.shape[-1]
+    across = band_intervals(band_offset)
+    along = None if doppler_offset is None else band_intervals(doppler_offset)
+    identity = np.eye(count)
+    information = np.zeros(
+        np.broadcast_shapes(gamma.shape, (*across.width.shape[:-1], count, count))
+    )
+    for row in range(across.width.shape[-1]):
+        for column in range(1 if along is None else along.width.shape[-1]):
+            area, seen = across.width[..., row], across.seen[..., row]
+            if along is not None:
+                area = area * along.width[..., column]
+                seen = seen * along.seen[..., column]
+            if not np.any(area > 0.0):
+                continue
+            both = seen[..., :, None] * seen[..., None, :] * (1.0 - identity)
+            part = fisher_information(gamma * both + identity, looks=looks)
+            information += area[..., None, None] * part
+    return with_zero_row_sums(information)
 
 
 def pair_phase_variance(coherence: ArrayLike, *, looks: ArrayLike) -> Array:
@@ -130,11 +215,11 @@ def independent_pairs_information(
     first, second = pairs.T
     information[..., first, second] = -weight
     information[..., second, first] = -weight
-    return _with_zero_row_sums(information)
+    return with_zero_row_sums(information)
 
 
-def _with_zero_row_sums(off_diagonal: Array) -> Array:
-    """Set the diagonal so that a common phase carries no information."""
+def with_zero_row_sums(off_diagonal: Array) -> Array:
+    """Set the diagonal, in place, so that a common phase carries no information."""
     index = np.arange(off_diagonal.shape[-1])
     off_diagonal[..., index, index] = 0.0
     off_diagonal[..., index, index] = -off_diagonal.sum(axis=-1)

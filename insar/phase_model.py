@@ -7,20 +7,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .baselines import (
-    image_projections,
-    pair_critical_baseline,
-    scene_critical_baseline,
-    sensitivity,
-)
-from .coherence import common_band
-from .errors import BaselineDecorrelation, ErrorBudget, Scale, SharedBy, Weighting
-from .phase_information import (
-    filtered_information,
-    fisher_information,
-    independent_pairs_information,
-    pair_phase_variance,
-)
+from .errors import ErrorBudget, Scale, SharedBy, Weighting
+from .image_model import ImageModel, image_information, image_model, pair_noise
+from .phase_information import independent_pairs_information, pair_phase_variance
 from .radar import Radar
 from .scene import Scene
 
@@ -69,17 +58,15 @@ def phase_model(
     ValueError
         If the shape of the positions does not fit the scene and the images.
     """
-    direction = sensitivity(scene, errors.held_constant)
-    projected = image_projections(positions, direction, radar=radar)
+    images = image_model(positions, scene, radar=radar, errors=errors)
+    kz = images.vertical_wavenumber
     wavenumber = 2.0 * np.pi / radar.wavelength
-    kz = wavenumber * projected[..., 0] / direction.height_lever[:, None]
-    offset = projected[..., 0] / scene_critical_baseline(scene, radar)[:, None]
 
     factors: dict[str, Array] = {}
     if errors.position.std > 0.0:
         factors["position"] = wavenumber * errors.position.std * radar.relative_incidence
     if errors.azimuth.std > 0.0:
-        factors["azimuth"] = wavenumber * errors.azimuth.std * projected[..., 1:2]
+        factors["azimuth"] = wavenumber * errors.azimuth.std * images.azimuth_projection[..., None]
     if errors.synchronization.std > 0.0:
         bistatic = np.diag([float(tx != rx) for tx, rx in radar.images])
         factors["synchronization"] = errors.synchronization.std * bistatic
@@ -91,10 +78,10 @@ def phase_model(
     scale = {"phase": Scale.PIXEL} | errors.common_scales
     scale |= {name: getattr(errors, name).scale for name in nuisance}
     if errors.weighting is Weighting.JOINT:
-        information = _joint_information(offset, radar, errors.baseline_decorrelation)
+        information = image_information(images, radar=radar, errors=errors)
         return PhaseModel(kz, information, nuisance, {}, scale)
 
-    pair_variance = {"phase": _pair_noise(offset, radar, errors)}
+    pair_variance = {"phase": _pair_variance(images, radar, errors)}
     first, second = radar.image_pairs.T
     for name in list(nuisance):
         if getattr(errors, name).shared_by is SharedBy.PAIR:
@@ -110,62 +97,9 @@ def phase_model(
     return PhaseModel(kz, information, nuisance, pair_variance, scale)
 
 
-def pair_coherence(
-    perpendicular_baseline: ArrayLike,
-    scene: Scene,
-    *,
-    radar: Radar,
-    baseline_decorrelation: BaselineDecorrelation,
-) -> tuple[Array, Array]:
-    """Coherence and looks of each pair.
-
-    Parameters
-    ----------
-    perpendicular_baseline : (..., S, K) — from `pair_geometry` [m].
-    scene : the S segments.
-    radar : the radar.
-    baseline_decorrelation : what a perpendicular baseline costs.
-
-    Returns
-    -------
-    coherence : (..., S, K) — zero where a pair has no common band.
-    looks : (..., S, K) — effective number of looks.
-    """
-    baseline = np.asarray(perpendicular_baseline, dtype=np.float64)
-    shift = baseline / pair_critical_baseline(scene, radar)
-    return _coherence_and_looks(common_band(0.0, shift), radar, baseline_decorrelation)
-
-
-def _coherence_and_looks(
-    band: Array, radar: Radar, decorrelation: BaselineDecorrelation
-) -> tuple[Array, Array]:
-    base = radar.image_coherence**2
-    everywhere = np.ones_like(band)
-    if decorrelation is BaselineDecorrelation.NONE:
-        return base * everywhere, radar.looks * everywhere
-    if decorrelation is BaselineDecorrelation.UNFILTERED:
-        return base * band, radar.looks * everywhere
-    return np.where(band > 0.0, base, 0.0), radar.looks * band
-
-
-def _joint_information(offset: Array, radar: Radar, decorrelation: BaselineDecorrelation) -> Array:
-    if decorrelation is BaselineDecorrelation.UNFILTERED:
-        coherence = radar.image_coherence**2 * common_band(
-            offset[..., :, None], offset[..., None, :]
-        )
-        index = np.arange(offset.shape[-1])
-        coherence[..., index, index] = 1.0
-        return fisher_information(coherence, looks=radar.looks)
-    if decorrelation is BaselineDecorrelation.NONE:
-        offset = np.zeros_like(offset)
-    return filtered_information(offset, image_coherence=radar.image_coherence, looks=radar.looks)
-
-
-def _pair_noise(offset: Array, radar: Radar, errors: ErrorBudget) -> Array:
-    first, second = radar.image_pairs.T
-    band = common_band(offset[..., first], offset[..., second])
+def _pair_variance(images: ImageModel, radar: Radar, errors: ErrorBudget) -> Array:
+    noise = pair_noise(images, radar=radar, errors=errors)
     if errors.phase_std is not None:
-        visible = (band > 0.0) | (errors.baseline_decorrelation is BaselineDecorrelation.NONE)
-        return np.where(visible, errors.phase_std**2, np.inf)
-    coherence, looks = _coherence_and_looks(band, radar, errors.baseline_decorrelation)
-    return pair_phase_variance(coherence, looks=looks)
+        coherent = (noise.coherence > 0.0) & (noise.looks > 0.0)
+        return np.where(coherent, errors.phase_std**2, np.inf)
+    return pair_phase_variance(noise.coherence, looks=noise.looks)

@@ -9,11 +9,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.special import ndtri
 
-from .baselines import pair_geometry
 from .errors import ErrorBudget
 from .height import height_error_of
+from .image_model import pair_coherence
 from .phase_information import pair_phase_variance
-from .phase_model import PhaseModel, pair_coherence, phase_model
+from .phase_model import PhaseModel, phase_model
 from .radar import Radar
 from .scene import Scene
 from .statistics import difference_quantile
@@ -59,13 +59,7 @@ def point_to_point_error(
     error = height_error_of(model, scene=scene, radar=radar, errors=errors)
     if errors.phase_std is not None:  # given, as a normal deviation
         return error.relative * _normal(level)
-    geometry = pair_geometry(positions, scene, radar=radar, held_constant=errors.held_constant)
-    coherence, looks = pair_coherence(
-        geometry.perpendicular_baseline,
-        scene,
-        radar=radar,
-        baseline_decorrelation=errors.baseline_decorrelation,
-    )
+    coherence, looks = pair_coherence(positions, scene, radar=radar, errors=errors)
     factor = point_to_point_factor(
         model, coherence=coherence, looks=looks, pairs=radar.image_pairs, level=level
     )

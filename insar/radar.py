@@ -28,8 +28,10 @@ class Radar:
     images : the (transmitter, receiver) of each image, as 0-based satellite indices. The phase
         center of an image is p_tx + p_rx, so one transmitter for all counts baselines once and
         monostatic images count them twice.
-    other_coherence : scalar — coherence lost to everything but noise and baseline (quantization,
-        ambiguities, processing), the same in every pair, at most 1.
+    other_coherence : scalar — coherence that is left by what the budget does not name, the same in
+        every pair, at most 1.
+    azimuth_resolution : scalar — resolution along track, on the ground [m]. None: separations along
+        track are taken to cost no coherence.
 
     Raises
     ------
@@ -43,6 +45,7 @@ class Radar:
     looks: float
     images: tuple[Image, ...]
     other_coherence: float = 1.0
+    azimuth_resolution: float | None = None
 
     def __post_init__(self) -> None:
         for name in ("wavelength", "slant_range_resolution", "snr"):
@@ -55,6 +58,9 @@ class Radar:
             raise ValueError(
                 f"other_coherence = {self.other_coherence!r} must lie above 0 and at most 1"
             )
+        azimuth = self.azimuth_resolution
+        if azimuth is not None and not (math.isfinite(azimuth) and azimuth > 0.0):
+            raise ValueError(f"azimuth_resolution = {azimuth!r} must be a finite positive number")
         if len(self.images) < 2:
             raise ValueError(f"images = {self.images!r}: interferometry needs at least two")
         if len(set(self.images)) < len(self.images):
@@ -114,8 +120,18 @@ class Radar:
         return float(self.pair_multiplicity.max())
 
     @property
+    def pursuit(self) -> bool:
+        """Whether every image is monostatic.
+
+        Then each satellite looks at the target when it passes it, at zero Doppler: images that are
+        apart along track share their azimuth band and differ in time. All other images are taken at
+        one moment, under one illumination: they share the time and differ in their azimuth band.
+        """
+        return all(transmitter == receiver for transmitter, receiver in self.images)
+
+    @property
     def image_coherence(self) -> float:
-        """Amplitude γ_i of one image, with γ_i·γ_j the coherence of a pair at zero baseline."""
+        """Amplitude γ_i by noise alone; `insar.coherence.image_amplitude` counts all."""
         return math.sqrt(self.other_coherence / (1.0 + 1.0 / self.snr))
 
 

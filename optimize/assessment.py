@@ -257,12 +257,7 @@ def image_pairs(problem: Problem, positions: Array) -> tuple[ImagePair, ...]:
     """
     scene, radar, errors = problem.scene, problem.radar, problem.errors
     geometry = pair_geometry(positions, scene, radar=radar, held_constant=errors.held_constant)
-    coherence, looks = pair_coherence(
-        geometry.perpendicular_baseline,
-        scene,
-        radar=radar,
-        baseline_decorrelation=errors.baseline_decorrelation,
-    )
+    coherence, looks = pair_coherence(positions, scene, radar=radar, errors=errors)
     critical = pair_critical_baseline(scene, radar)
     fraction = np.abs(geometry.perpendicular_baseline) / critical
     return tuple(

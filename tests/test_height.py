@@ -168,19 +168,19 @@ def test_coherence_and_looks_of_a_pair_along_its_baseline(images):
     """Half the critical baseline halves the looks (filtered) or the coherence (unfiltered)."""
     radar = radar_for(images)
     critical = scene_critical_baseline(SCENE, radar, multiplicity=radar.multiplicity)
-    share = np.array([0.0, 0.5, 1.0, 1.5])[:, None]
-    baseline = (share * critical)[..., None]
+    share = np.array([0.0, 0.5, 1.0 + 1e-9, 1.5])[:, None, None]
+    across = np.cross(SCENE.line_of_sight, [0.0, 1.0, 0.0]) * critical[:, None]
+    positions = np.stack([np.zeros((4, len(SCENE), 3)), share * across], axis=-2)
     base = 1 / 1.1
     for model, coherence, looks in [
         ("filtered", [base, base, 0, 0], [4, 2, 0, 0]),
         ("unfiltered", [base, base / 2, 0, 0], [4, 4, 4, 4]),
         ("none", [base, base, base, base], [4, 4, 4, 4]),
     ]:
-        result = pair_coherence(
-            baseline, SCENE, radar=radar, baseline_decorrelation=BaselineDecorrelation(model)
-        )
-        assert_allclose(result[0][:, 0, 0], coherence, atol=1e-12)
-        assert_allclose(result[1][:, 0, 0], looks, atol=1e-12)
+        budget = ErrorBudget(baseline_decorrelation=BaselineDecorrelation(model))
+        result = pair_coherence(positions, SCENE, radar=radar, errors=budget)
+        assert_allclose(result.coherence[:, 0, 0], coherence, atol=1e-12)
+        assert_allclose(result.looks[:, 0, 0], looks, atol=1e-12)
 
 
 # -- closed forms --------------------------------------------------------------------------------

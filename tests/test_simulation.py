@@ -22,10 +22,12 @@ from insar import (
     one_transmitter,
     ping_pong,
 )
+from insar.bands import BandCell as Cell
+from insar.bands import band_cells
 from insar.simulation import MAX_IMAGES, Verdict, natural_errors, refute
 from insar.simulation.estimators import Processor, along_ladder, likely_heights
 from insar.simulation.linking import linked_phases
-from insar.simulation.speckle import Cell, Speckle, link_matrices, range_cells
+from insar.simulation.speckle import Speckle, link_matrices
 
 STRIP = Scene.broadside_strip(
     times=[0.0], look_angle=np.deg2rad(23), altitude=514e3, earth_radius=6378137.0
@@ -72,7 +74,7 @@ def simulated(baselines, *, radar, errors=REALISTIC, prior=4.0, samples=4096, se
 
 
 def test_cells_are_where_two_or_more_bands_overlap():
-    cells = range_cells([0.0, 0.3, 0.9, 5.0])
+    cells = band_cells([0.0, 0.3, 0.9, 5.0])
     assert [cell.images.tolist() for cell in cells] == [[0, 1], [0, 1, 2], [1, 2]]
     assert [cell.share for cell in cells] == pytest.approx([0.6, 0.1, 0.3])
 

@@ -13,8 +13,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..baselines import image_projections, scene_critical_baseline, sensitivity
-from ..coherence import common_band
 from ..errors import (
     BaselineDecorrelation,
     ErrorBudget,
@@ -24,10 +22,11 @@ from ..errors import (
     Weighting,
 )
 from ..height import common_height_errors
+from ..image_model import image_model, segment_cells
 from ..phase_model import phase_model
 from ..radar import Radar
 from ..scene import Scene
-from .speckle import Cell, Speckle, range_cells
+from .speckle import Speckle
 
 Array = NDArray[np.float64]
 
@@ -127,8 +126,8 @@ def segment_nature(
     errors : a natural budget.
     """
     model = phase_model(positions, scene, radar=radar, errors=errors)
-    projected = image_projections(positions, sensitivity(scene, errors.held_constant), radar=radar)
-    offset = projected[segment, :, 0] / scene_critical_baseline(scene, radar)[segment]
+    images = image_model(positions, scene, radar=radar, errors=errors)
+    coherence, cells = segment_cells(images, segment, errors=errors)
     count = len(radar.images)
     none = np.zeros((count, 0))
     lasting, own = [none], [none]
@@ -139,25 +138,13 @@ def segment_nature(
         moved[model.scale[name] is Scale.PIXEL] += float(error[segment]) ** 2
     return Nature(
         vertical_wavenumber=model.vertical_wavenumber[segment],
-        speckle=_speckle(offset, radar, errors.baseline_decorrelation),
+        speckle=Speckle(coherence, cells, radar.looks),
         scene_factor=np.concatenate(lasting, axis=-1),
         pixel_factor=np.concatenate(own, axis=-1),
         scene_height_std=math.sqrt(moved[False]),
         pixel_height_std=math.sqrt(moved[True]),
         information=model.information[segment],
     )
-
-
-def _speckle(offset: Array, radar: Radar, decorrelation: BaselineDecorrelation) -> Speckle:
-    count = len(offset)
-    coherence = np.full((count, count), radar.image_coherence**2, dtype=np.complex128)
-    if decorrelation is BaselineDecorrelation.UNFILTERED:
-        coherence *= common_band(offset[:, None], offset)
-        cells: tuple[Cell, ...] = (Cell(1.0, np.arange(count)),)
-    else:
-        cells = range_cells(offset)
-    np.fill_diagonal(coherence, 1.0)
-    return Speckle(coherence, cells, radar.looks)
 
 
 def _owner(shared_by: SharedBy) -> str:

@@ -2,30 +2,18 @@
 
 from __future__ import annotations
 
-from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
+
+from ..bands import BandCell
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 _GRID_ORIGINS = 16
 """Origins of the grid of looks, spread evenly over a cell: so many numbers of looks are mixed."""
-
-
-class Cell(NamedTuple):
-    """A part of the spectrum of the ground that one and the same images see.
-
-    Attributes
-    ----------
-    share : its area, in parts of what one image sees.
-    images : (n,) — indices of the images that see it.
-    """
-
-    share: float
-    images: NDArray[np.intp]
 
 
 class Speckle(NamedTuple):
@@ -39,30 +27,8 @@ class Speckle(NamedTuple):
     """
 
     coherence: Complex
-    cells: tuple[Cell, ...]
+    cells: tuple[BandCell, ...]
     looks: float
-
-
-def range_cells(band_offset: ArrayLike) -> tuple[Cell, ...]:
-    """Cut the range spectrum of the ground where an image begins or ceases to see it.
-
-    Parameters
-    ----------
-    band_offset : (M,) — lower ends of the images' bands [o_i, o_i + 1], in bandwidths.
-
-    Returns
-    -------
-    Intervals that two or more images see, in ascending order.
-    """
-    offset = np.asarray(band_offset, dtype=np.float64)
-    edges = np.unique(np.concatenate([offset, offset + 1.0]))
-    cells = []
-    for low, high in pairwise(edges):
-        middle = 0.5 * (low + high)
-        seen = np.flatnonzero((offset <= middle) & (middle < offset + 1.0))
-        if seen.size > 1:
-            cells.append(Cell(float(high - low), seen))
-    return tuple(cells)
 
 
 def link_matrices(speckle: Speckle, *, samples: int, rng: np.random.Generator) -> Complex:
