@@ -227,9 +227,10 @@ def image_information(images: ImageModel, *, radar: Radar, errors: ErrorBudget) 
     if decorrelation is BaselineDecorrelation.NONE:
         offset, doppler = np.zeros_like(offset), None
     if errors.coherence.spectral:
+        alike = not errors.coherence.image_snr
         return filtered_information(
             offset,
-            image_coherence=images.amplitude,
+            image_coherence=images.amplitude[..., :1] if alike else images.amplitude,
             looks=radar.looks,
             doppler_offset=doppler,
         )

@@ -65,7 +65,7 @@ def filtered_information(
     Parameters
     ----------
     band_offset : (..., M) — shifts o_i of the images' range bands, in bandwidths.
-    image_coherence : scalar or (..., M) — amplitude γ_i of each image, below 1.
+    image_coherence : scalar, (..., 1) or (..., M) — amplitude γ_i of each image, below 1.
     looks : scalar — independent looks L at full bandwidth.
     doppler_offset : (..., M) — shifts d_i of their azimuth bands, in bandwidths; None: all alike.
 
@@ -75,7 +75,7 @@ def filtered_information(
     """
     offset = np.asarray(band_offset, dtype=np.float64)
     squared = np.asarray(image_coherence, dtype=np.float64) ** 2
-    weight = np.broadcast_to(squared / (1.0 - squared), offset.shape)
+    weight = np.atleast_1d(squared / (1.0 - squared))
     if doppler_offset is None:
         common = _common_integral(offset, weight)
     else:
@@ -90,9 +90,12 @@ def _common_integral(offset: Array, weight: Array) -> Array:
     edges = np.concatenate([offset, offset + 1.0], axis=-1)
     order = np.argsort(edges, axis=-1, kind="stable")
     sorted_edges = np.take_along_axis(edges, order, axis=-1)
-    change = np.concatenate([weight, -weight], axis=-1)
-    seen_by = np.cumsum(np.take_along_axis(change, order, axis=-1), axis=-1)
-    density = 1.0 / (1.0 + seen_by[..., :-1])
+    if weight.shape[-1] == 1:
+        change = np.where(order < count, weight, -weight)
+    else:
+        each = np.broadcast_to(weight, offset.shape)
+        change = np.take_along_axis(np.concatenate([each, -each], axis=-1), order, axis=-1)
+    density = 1.0 / (1.0 + np.cumsum(change, axis=-1)[..., :-1])
     cumulative = np.zeros_like(edges)
     np.cumsum(density * np.diff(sorted_edges, axis=-1), axis=-1, out=cumulative[..., 1:])
     integral = np.empty_like(edges)
