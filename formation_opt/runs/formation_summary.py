@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
@@ -53,10 +53,10 @@ def formation_summary(
         rows.append(
             ("unwrapping probability", tuple(f"{u.probability.min():.4f}" for u in unwrapping))
         )
-    refutations = [a.refutation for a in shown if a.refutation is not None]
-    if len(refutations) == len(shown):
+    refutations = [a.refutation for a in shown]
+    if any(refutations):
         rows += _simulated(refutations)
-        warnings = (*warnings, *_useless(shown[-1].label, refutations[-1]))
+        warnings = (*warnings, *_useless(shown))
     rows.append(("limits", tuple(_limits(a) for a in shown)))
     if dem is not None and dem.judgments:
         elsewhere = ("",) * (len(shown) - 1)
@@ -82,23 +82,28 @@ def refutation_seed(study: OptimizeStudy | EvaluateStudy, options: Options, othe
     return otherwise if own is None else own
 
 
-def _simulated(refutations: Sequence[Refutation]) -> list[tuple[str, tuple[str, ...]]]:
-    """What a simulation found in the worst segment of each formation."""
-    worst = [refutation.segments[0] for refutation in refutations]
+def _simulated(refutations: Sequence[Refutation | None]) -> list[tuple[str, tuple[str, ...]]]:
+    """What a simulation found in the worst segment of each formation that was simulated."""
+
+    def shown(say: Callable[[Refutation], str]) -> tuple[str, ...]:
+        return tuple("" if one is None else say(one) for one in refutations)
+
     return [
-        ("  simulated, right cycles", tuple(meters(s.right_cycles.value) for s in worst)),
-        ("  simulated wrong cycles", tuple(_share(s.wrong.value) for s in worst)),
-        ("  gained over the prior", tuple(f"{s.bits:.1f} bits" for s in worst)),
-        ("simulation", tuple(_VERDICTS[refutation.verdict] for refutation in refutations)),
+        ("  simulated, right cycles", shown(lambda r: meters(r.segments[0].right_cycles.value))),
+        ("  simulated wrong cycles", shown(lambda r: _share(r.segments[0].wrong.value))),
+        ("  gained over the prior", shown(lambda r: f"{r.segments[0].bits:.1f} bits")),
+        ("simulation", shown(lambda r: _VERDICTS[r.verdict])),
     ]
 
 
-def _useless(label: str, refutation: Refutation) -> tuple[str, ...]:
-    if refutation.verdict is not Verdict.MEASURES_NOTHING:
+def _useless(shown: Sequence[Assessment]) -> tuple[str, ...]:
+    """A warning if the formation that matters measures nothing."""
+    refutation = shown[-1].refutation
+    if refutation is None or refutation.verdict is not Verdict.MEASURES_NOTHING:
         return ()
     worst = max(refutation.segments, key=lambda s: s.best.value)
     return (
-        f"the {label} formation measures nothing: simulated heights are wrong by "
+        f"the {shown[-1].label} formation measures nothing: simulated heights are wrong by "
         f"{meters(worst.best.value)}, the prior was by {meters(worst.prior_height_std)}.",
     )
 
