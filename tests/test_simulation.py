@@ -25,15 +25,12 @@ from insar import (
 )
 from insar.bands import BandCell as Cell
 from insar.bands import band_cells
+from insar.phase_information import cell_information
 from insar.simulation import MAX_IMAGES, Verdict, natural_errors, refute
 from insar.simulation.estimators import Processor, along_ladder, bootstrapped, likely_heights
 from insar.simulation.linking import laplacian, linked_phases, slope_and_weights
-from insar.simulation.speckle import (
-    Speckle,
-    link_matrices,
-    unfiltered_link_matrices,
-    varied_link_matrices,
-)
+from insar.simulation.speckle import Speckle, link_matrices
+from insar.simulation.varied import unfiltered_link_matrices, varied_link_matrices
 
 STRIP = Scene.broadside_strip(
     times=[0.0], look_angle=np.deg2rad(23), altitude=514e3, earth_radius=6378137.0
@@ -123,6 +120,41 @@ def test_mean_likelihood_is_the_fisher_information(looks):
     for drawn in (alike, varied):
         assert drawn.mean(axis=0).real == pytest.approx(expected, abs=0.02 * expected.max())
         assert np.abs(drawn.mean(axis=0).imag).max() < 0.02 * expected.max()
+
+
+def test_unequal_images_with_azimuth_bands_and_pair_factors_likewise():
+    """Against `filtered_information` and `cell_information`: amplitudes, Doppler bands, volume."""
+    rng, looks, samples = np.random.default_rng(11), 20.0, 20_000
+    offset, doppler = np.array([0.0, 0.3, 0.75]), np.array([0.0, 0.2, 0.1])
+    amplitude = np.array([0.95, 0.8, 0.9])
+    factor = np.exp(-0.3 * np.abs(np.subtract.outer(offset, offset))) + 0j
+    factor *= np.exp(0.4j * np.subtract.outer(offset, offset))
+    gamma = np.outer(amplitude, amplitude) * factor
+    np.fill_diagonal(gamma, 1.0)
+    cases = (
+        (
+            None,
+            filtered_information(
+                offset, image_coherence=amplitude, looks=looks, doppler_offset=doppler
+            ),
+        ),
+        (
+            factor,
+            cell_information(gamma, looks=looks, band_offset=offset, doppler_offset=doppler),
+        ),
+    )
+    for pair_factor, information in cases:
+        drawn = varied_link_matrices(
+            np.tile(offset, (samples, 1)),
+            np.tile(amplitude, (samples, 1)),
+            looks=looks,
+            rng=rng,
+            doppler_offset=np.tile(doppler, (samples, 1)),
+            pair_factor=None if pair_factor is None else np.tile(pair_factor, (samples, 1, 1)),
+        )
+        expected = -0.5 * information
+        np.fill_diagonal(expected, 0.0)
+        assert drawn.mean(axis=0).real == pytest.approx(expected, abs=0.02 * expected.max())
 
 
 def test_unfiltered_images_likewise():

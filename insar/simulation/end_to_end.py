@@ -12,7 +12,7 @@ from scipy.ndimage import gaussian_filter
 from .nature import natural_errors
 from .refutation import Simulated
 from .synthesis import at_range, draw_scene_errors, path_phase, unsupported_scales
-from .terrain_flight import Flown, Points, chunks, common_shift, fly, unfiltered_coherence
+from .terrain_flight import Flown, Points, chunks, coherence_with_first, common_shift, fly
 from .terrain_results import Comparison, TerrainMaps, TerrainRequest, TerrainSimulation
 
 Array = NDArray[np.float64]
@@ -157,7 +157,7 @@ def _maps(
     return TerrainMaps(
         phase=spread(phases),
         residual_phase=spread([one.phase[:, 1:] for one in flown]),
-        coherence=spread([unfiltered_coherence(request, points)[:, 1:] for points in parts]),
+        coherence=spread([coherence_with_first(points)[:, 1:] for points in parts]),
         predicted_total=predicted[0],
         predicted_relative=predicted[1],
         predicted_failure=predicted[2],

@@ -82,10 +82,10 @@ def _scatter(coherence: Complex, *, looks: int, samples: int, rng: np.random.Gen
     count = len(coherence)
     root = np.linalg.cholesky(coherence)
     if looks <= 4 * count + 8:
-        images = _circular(rng, (samples, count, looks))
+        images = circular(rng, (samples, count, looks))
     else:
         # Bartlett 1933: the same distribution from a triangle instead of all looks.
-        images = np.tril(_circular(rng, (samples, count, count)), -1)
+        images = np.tril(circular(rng, (samples, count, count)), -1)
         index = np.arange(count)
         images[:, index, index] = np.sqrt(
             rng.standard_gamma(looks - index.astype(np.float64), (samples, count))
@@ -94,86 +94,14 @@ def _scatter(coherence: Complex, *, looks: int, samples: int, rng: np.random.Gen
     return np.asarray(images @ np.conj(np.swapaxes(images, -1, -2)))
 
 
-def _circular(rng: np.random.Generator, shape: tuple[int, ...]) -> Complex:
-    """Circular Gaussian numbers of unit power."""
+def circular(rng: np.random.Generator, shape: tuple[int, ...]) -> Complex:
+    """Circular Gaussian numbers of unit power.
+
+    Parameters
+    ----------
+    rng : source of random numbers.
+    shape : how many.
+    """
     parts = rng.standard_normal((*shape, 2))
     parts *= np.sqrt(0.5)
     return np.asarray(parts.view(np.complex128)[..., 0])
-
-
-def varied_link_matrices(
-    band_offset: Array, amplitude: Array, *, looks: float, rng: np.random.Generator
-) -> Complex:
-    """The same, after range spectral filtering, of samples each of which has bands of its own.
-
-    Every sample gets its own grid of looks over the ground's spectrum, which begins anywhere. With
-    u_i = g_i²/(1 − g_i²) and U the sum of u over the images that see a look,
-    −(Γ⁻¹)_ij = √(u_i u_j)/√((1 − g_i²)(1 − g_j²))/(1 + U): one number per image and look.
-
-    Parameters
-    ----------
-    band_offset : (samples, M) — lower ends of the images' bands, in bandwidths.
-    amplitude : (samples, M) — g, below 1; γ_ij = g_i g_j.
-    looks : scalar — independent samples of what one image sees.
-    rng : source of random numbers.
-
-    Returns
-    -------
-    (samples, M, M) — as `link_matrices`.
-    """
-    samples, count = band_offset.shape
-    data = np.zeros((samples, count, count), dtype=np.complex128)
-    span = float(np.max(np.ptp(band_offset, axis=-1), initial=0.0))
-    # Bands further apart share nothing, whatever lies between them.
-    number = int(np.ceil(looks * (1.0 + min(span, 1.0 * count)))) + 1
-    size = max(1, _CHUNK // (count * number))
-    for start in range(0, samples, size):
-        rows = slice(start, start + size)
-        data[rows] = _varied(band_offset[rows], amplitude[rows], looks, number, rng)
-    return data
-
-
-_CHUNK = 2_000_000
-"""Complex numbers of the largest array that lives at a time."""
-
-
-def _varied(
-    offset: Array, amplitude: Array, looks: float, number: int, rng: np.random.Generator
-) -> Complex:
-    samples, count = offset.shape
-    lowest = offset.min(axis=-1, keepdims=True)
-    place = lowest + (np.arange(number) + rng.random((samples, 1))) / looks
-    seen = (offset[..., None] <= place[:, None]) & (place[:, None] < offset[..., None] + 1.0)
-    noise_power = 1.0 - amplitude**2
-    weight = amplitude**2 / noise_power
-    images = np.sqrt(noise_power)[..., None] * _circular(rng, (samples, count, number))
-    images += amplitude[..., None] * _circular(rng, (samples, 1, number))
-    images *= seen * (amplitude / noise_power)[..., None]
-    images /= np.sqrt(1.0 + np.sum(weight[..., None] * seen, axis=1))[:, None]
-    data = images @ np.conj(np.swapaxes(images, -1, -2))
-    index = np.arange(count)
-    data[:, index, index] = 0.0
-    return np.asarray(data)
-
-
-def unfiltered_link_matrices(
-    coherence: Array, *, looks: float, rng: np.random.Generator
-) -> Complex:
-    """The same of samples each of which has a coherence matrix of its own, without filtering.
-
-    Parameters
-    ----------
-    coherence : (samples, M, M) — real, unit diagonal.
-    looks : scalar — independent samples; where they are not whole, one more or less.
-    rng : source of random numbers.
-    """
-    samples, count, _ = coherence.shape
-    number = int(np.ceil(looks))
-    images = np.linalg.cholesky(coherence) @ _circular(rng, (samples, count, number))
-    kept = rng.random(samples) < looks - np.floor(looks)
-    if number > looks:
-        images[~kept, :, -1] = 0.0
-    data = -np.linalg.inv(coherence) * (images @ np.conj(np.swapaxes(images, -1, -2)))
-    index = np.arange(count)
-    data[:, index, index] = 0.0
-    return np.asarray(data)

@@ -8,19 +8,18 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..baselines import image_projections, scene_critical_baseline, sensitivity
-from ..coherence import common_band
 from ..errors import BaselineDecorrelation, ErrorBudget
 from ..height import common_height_errors, height_error_of
+from ..image_model import ImageModel, image_model, unfiltered_coherence
 from ..phase_model import phase_model
 from ..scene import Scene
 from ..terrain.view import Mask
 from ..unwrapping import unwrapping_ladder
 from .estimators import Processor, along_ladder, bootstrapped, likely_heights
 from .linking import Complex, linked_phases
-from .speckle import unfiltered_link_matrices, varied_link_matrices
 from .synthesis import SceneErrors, at_range, path_phase
 from .terrain_results import TerrainRequest
+from .varied import unfiltered_link_matrices, varied_link_matrices
 
 Array = NDArray[np.float64]
 
@@ -38,7 +37,7 @@ class Points(NamedTuple):
     height, slant_range : (P,) [m].
     positions : (P, N, 3) — of the satellites then [m].
     scene : the points as segments.
-    offset : (P, M) — of the images' ground bands, in bandwidths.
+    images : their amplitudes, bands and pair factors.
     processor : what is known beforehand.
     predicted : (3, P) — total and relative height error [m], and probability of a wrong cycle.
     clear : (P,) — whether every image has a phase worth the name: of 1 rad or better to the others.
@@ -50,7 +49,7 @@ class Points(NamedTuple):
     slant_range: Array
     positions: Array
     scene: Scene
-    offset: Array
+    images: ImageModel
     processor: Processor
     predicted: Array
     clear: NDArray[np.bool_]
@@ -97,8 +96,6 @@ def _points(request: TerrainRequest, errors: ErrorBudget, mask: Mask) -> Points:
     scene = view.scene(mask, mean_motion=request.mean_motion)
     positions = request.relative_positions(scene.times)
     model = phase_model(positions, scene, radar=radar, errors=errors)
-    projected = image_projections(positions, sensitivity(scene, errors.held_constant), radar=radar)
-    offset = projected[..., 0] / scene_critical_baseline(scene, radar)[:, None]
     ladder = unwrapping_ladder(model, prior_height_std=prior)
     stated = phase_model(positions, scene, radar=radar, errors=request.errors)
     error = height_error_of(stated, scene=scene, radar=radar, errors=request.errors)
@@ -111,7 +108,7 @@ def _points(request: TerrainRequest, errors: ErrorBudget, mask: Mask) -> Points:
         slant_range=scene.slant_range,
         positions=positions,
         scene=scene,
-        offset=offset,
+        images=image_model(positions, scene, radar=radar, errors=errors),
         processor=Processor(
             vertical_wavenumber=model.vertical_wavenumber,
             information=model.information,
@@ -212,20 +209,22 @@ def common_shift(
     return shift
 
 
-def unfiltered_coherence(request: TerrainRequest, points: Points) -> Array:
-    """Coherence of every image with the first, before filtering, (P, M)."""
-    base = request.radar.image_coherence**2
-    return np.asarray(base * common_band(points.offset[:, :1], points.offset))
+def coherence_with_first(points: Points) -> Array:
+    """Magnitude of the coherence of every image with the first, before filtering, (P, M)."""
+    return np.asarray(np.abs(unfiltered_coherence(points.images)[:, 0]))
 
 
 def _speckle(
     request: TerrainRequest, errors: ErrorBudget, points: Points, rng: np.random.Generator
 ) -> Complex:
-    radar, offset = request.radar, points.offset
+    images, looks = points.images, request.radar.looks
     if errors.baseline_decorrelation is BaselineDecorrelation.UNFILTERED:
-        coherence = radar.image_coherence**2 * common_band(offset[:, :, None], offset[:, None])
-        index = np.arange(offset.shape[-1])
-        coherence[:, index, index] = 1.0
-        return unfiltered_link_matrices(coherence, looks=radar.looks, rng=rng)
-    amplitude = np.full(offset.shape, radar.image_coherence)
-    return varied_link_matrices(offset, amplitude, looks=radar.looks, rng=rng)
+        return unfiltered_link_matrices(unfiltered_coherence(images), looks=looks, rng=rng)
+    return varied_link_matrices(
+        images.range_offset,
+        np.broadcast_to(images.amplitude, images.range_offset.shape),
+        looks=looks,
+        rng=rng,
+        doppler_offset=images.doppler_offset,
+        pair_factor=images.pair_factor,
+    )
