@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import NamedTuple
 
@@ -10,10 +11,13 @@ from numpy.typing import NDArray
 from scipy.optimize import minimize
 
 from .constraints import FEASIBILITY_TOLERANCE
+from .gradient import DesignSlopes
 
 Array = NDArray[np.float64]
 Score = Callable[[Array], tuple[Array, Array]]
 """Objectives (P,) and margins (P, items), positive when kept, of (P, D) designs."""
+Differentiate = Callable[[Array], DesignSlopes | None]
+"""Scores of one (D,) design with their derivatives; None where they are not known."""
 
 _STEP = 1e-6
 """Step of the central differences in parts of the box: truncation and rounding near 1e-10."""
@@ -39,7 +43,13 @@ class Refinement(NamedTuple):
 
 
 def refine(
-    score: Score, start: Array, *, upper: Array, free: int, max_iterations: int = 100
+    score: Score,
+    start: Array,
+    *,
+    upper: Array,
+    free: int,
+    differentiate: Differentiate | None = None,
+    max_iterations: int = 100,
 ) -> Refinement:
     """Descend from a design to a local optimum within the constraints.
 
@@ -49,6 +59,8 @@ def refine(
     start : (D,) — the design to improve; it may be infeasible.
     upper : (D,) — the box is ±upper.
     free : how many leading variables may move; a sign, which is not continuous, may not.
+    differentiate : the derivatives in closed form; where it gives None, and without it, central
+        differences are taken.
     max_iterations : of the quadratic programs.
 
     Returns
@@ -57,10 +69,11 @@ def refine(
 
     Notes
     -----
-    SLSQP on the logarithm of the height error, with central differences scored as one batch.
+    SLSQP on the logarithm of the height error. Central differences are scored as one batch, of
+    twice as many designs as variables.
     Every point on the way is a candidate, so a failed line search loses nothing.
     """
-    descent = _Descent(score, start, upper, free)
+    descent = _Descent(score, start, upper, free, differentiate)
     interrupted = False
     try:
         minimize(
@@ -84,9 +97,17 @@ class _NotMeasurableError(Exception):
 
 
 class _Descent:
-    """Values and gradients at the current point, from one batched scoring of its neighbors."""
+    """Values and gradients at the current point, in closed form or from a batch of neighbors."""
 
-    def __init__(self, score: Score, start: Array, upper: Array, free: int) -> None:
+    def __init__(
+        self,
+        score: Score,
+        start: Array,
+        upper: Array,
+        free: int,
+        differentiate: Differentiate | None,
+    ) -> None:
+        self._differentiate = differentiate
         self._score, self._start, self._upper, self._free = score, start, upper, free
         self._point: Array | None = None
         self.best_design = start
@@ -95,28 +116,28 @@ class _Descent:
     def constraints(self) -> tuple[dict[str, object], ...]:
         """The constraints as SLSQP takes them; none if there are no margins."""
         self._visit(self._start[: self._free] / self._upper[: self._free])
-        if self._margins.shape[-1] == 0:
+        if self._margins.size == 0:
             return ()
         return ({"type": "ineq", "fun": self.margins, "jac": self.margins_gradient},)
 
     def objective(self, point: Array) -> float:
         self._visit(point)
-        return float(self._values[0])
+        return self._value
 
     def objective_gradient(self, point: Array) -> Array:
         self._visit(point)
-        return self._gradient(self._values)
+        return self._value_slopes
 
     def margins(self, point: Array) -> Array:
         self._visit(point)
-        safe: Array = self._margins[0] - _SAFE_MARGIN
+        safe: Array = self._margins - _SAFE_MARGIN
         return safe
 
     def margins_gradient(self, point: Array) -> Array:
         self._visit(point)
-        return self._gradient(self._margins).T
+        return self._margin_slopes
 
-    def _gradient(self, values: Array) -> Array:
+    def _difference(self, values: Array) -> Array:
         forward, backward = values[1 : 1 + self._free], values[1 + self._free :]
         gradient: Array = (forward - backward) / (2.0 * _STEP)
         return gradient
@@ -124,6 +145,23 @@ class _Descent:
     def _visit(self, point: Array) -> None:
         if self._point is not None and np.array_equal(point, self._point):
             return
+        scale = self._upper[: self._free]
+        design = self._start.copy()
+        design[: self._free] = point * scale
+        known = None if self._differentiate is None else self._differentiate(design)
+        if known is None:
+            self._visit_neighbors(point)
+        else:
+            self._remember(design, known.objective, known.margins)
+            self._value, self._margins = math.log(known.objective), known.margins
+            self._value_slopes = known.log_objective_slopes * scale
+            self._margin_slopes = known.margin_slopes * scale
+            slopes = (self._value_slopes, self._margin_slopes)
+            if not all(np.all(np.isfinite(part)) for part in (self._margins, *slopes)):
+                raise _NotMeasurableError
+        self._point = np.array(point)
+
+    def _visit_neighbors(self, point: Array) -> None:
         steps = _STEP * np.eye(self._free)
         points = np.concatenate([point[None], point + steps, point - steps])
         designs = np.broadcast_to(self._start, (len(points), self._start.size)).copy()
@@ -132,8 +170,10 @@ class _Descent:
         self._remember(designs[0], float(objectives[0]), margins[0])
         if not (np.all(np.isfinite(objectives)) and np.all(np.isfinite(margins))):
             raise _NotMeasurableError
-        self._values, self._margins = np.log(objectives), margins
-        self._point = np.array(point)
+        values = np.log(objectives)
+        self._value, self._margins = float(values[0]), margins[0]
+        self._value_slopes = self._difference(values)
+        self._margin_slopes = self._difference(margins).T
 
     def _remember(self, design: Array, objective: float, margins: Array) -> None:
         overshoot = np.where(margins < -FEASIBILITY_TOLERANCE, -margins, 0.0)

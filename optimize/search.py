@@ -5,12 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .design_space import DesignSpace
+from .gradient import DesignSlopes, design_slopes
 from .genetic import Generation, GeneticSettings, GeneticState, generations
 from .problem import Evaluation, Problem
 from .progress import Candidate, Forgetful, GenerationRecord, Keeper, Step
@@ -136,6 +138,10 @@ class _Search:
     genetic_objective: float = math.inf
     _best: Candidate | None = None
 
+    @cached_property
+    def slopes(self) -> Callable[[Array], DesignSlopes | None]:
+        return design_slopes(self.problem, self.space)
+
     @property
     def best_feasible(self) -> bool:
         return self._best is not None and self._best[0] == 0.0 and math.isfinite(self._best[1])
@@ -214,7 +220,13 @@ class _Search:
         if known is not None:
             self._take(known)
             return False
-        outcome = refine(self._score, start, upper=self.space.upper, free=2 * self.space.satellites)
+        outcome = refine(
+            self._score,
+            start,
+            upper=self.space.upper,
+            free=2 * self.space.satellites,
+            differentiate=self._differentiate,
+        )
         evaluation = self.evaluate(outcome.design[None])
         violation, objective = evaluation.total_violation, evaluation.objectives
         candidate = Candidate(float(violation[0]), float(objective[0]), outcome.design)
@@ -244,6 +256,13 @@ class _Search:
         self.evaluations += len(designs)
         objectives, margins = self.problem.objectives_and_margins(self.space.states(designs))
         return objectives, np.concatenate([np.empty((len(designs), 0)), *margins], axis=-1)
+
+    def _differentiate(self, design: Array) -> DesignSlopes | None:
+        if self.should_stop():
+            raise KeyboardInterrupt
+        slopes = self.slopes(design)
+        self.evaluations += slopes is not None
+        return slopes
 
     def _take(self, step: Step) -> None:
         """Count a step that is finished, in this run or in an earlier one."""
