@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .design_space import DesignSpace
-from .gradient import DesignSlopes, design_slopes
 from .genetic import Generation, GeneticSettings, GeneticState, generations
+from .gradient import DesignSlopes, design_slopes
 from .problem import Evaluation, Problem
 from .progress import Candidate, Forgetful, GenerationRecord, Keeper, Step
 from .refinement import refine
@@ -23,6 +23,9 @@ Array = NDArray[np.float64]
 _DISTANCE = 0.3
 """Distance of designs that are refined, in parts of the box, largest coordinate: starts 5 % apart
 end in the same optimum, and the evaluations of all but one are wasted (docs/performance.md)."""
+
+_CLOSED_FORM_FROM = 6
+"""Satellites from which derivatives in closed form take less time than a batch of differences."""
 
 
 class SearchSettings(NamedTuple):
@@ -140,6 +143,8 @@ class _Search:
 
     @cached_property
     def slopes(self) -> Callable[[Array], DesignSlopes | None]:
+        if self.space.satellites < _CLOSED_FORM_FROM:
+            return lambda _design: None
         return design_slopes(self.problem, self.space)
 
     @property

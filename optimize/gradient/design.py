@@ -125,7 +125,7 @@ class _Differentiation:
             objective,
             np.concatenate([np.empty(0), *margins]),
             np.einsum("s,snv->nv", weight, by_segment[0]).ravel(),
-            rows.reshape(len(rows), -1),
+            rows.reshape(len(rows), 2 * self.space.satellites),
         )
 
     def _by_design(

@@ -4,7 +4,8 @@ The information X of M images is a graph Laplacian. A sum over its edges,
 
     E = Σ_{i<j} C_ij x_ij,   x_ij = −X_ij = 2L u_i u_j η_ij I_ij,   I_ij = ∬ df/(1 + U(f)),
 
-depends on the design only through the lower ends o_i, d_i of the images' range and azimuth bands: through I_ij, the integral over the common band, and through the efficiency η_ij, a function of the
+depends on the design only through the lower ends o_i, d_i of the images' range and azimuth bands:
+through I_ij, the integral over the common band, and through the efficiency η_ij, a function of the
 common area A_ij. With K_ij = 2L u_i u_j η_ij C_ij the first part is an integral over the spectrum,
 
     Σ K_ij I_ij = ∬ h(f) df,   h(f) = Σ_{i<j seen at f} K_ij / (1 + U(f)),
@@ -169,7 +170,9 @@ def _everything(bands: Bands) -> Intervals:
     """One interval of the azimuth axis, which all images see."""
     segments, count = bands.range_offset.shape
     return Intervals(
-        np.ones((segments, 1)), np.ones((segments, count, 1)), np.zeros((segments, 2), dtype=np.intp)
+        np.ones((segments, 1)),
+        np.ones((segments, count, 1)),
+        np.zeros((segments, 2), dtype=np.intp),
     )
 
 

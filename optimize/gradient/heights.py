@@ -72,8 +72,7 @@ def height_slopes(model: PhaseModel) -> tuple[Array, Slopes]:
 
 
 def failure_slopes(model: PhaseModel, *, prior_height_std: float) -> tuple[Array, Slopes]:
-    """Logarithm of the unwrapping failure of each segment and its derivatives, the ladder's order
-    held.
+    """Logarithm of each segment's unwrapping failure and its derivatives, in the ladder's order.
 
     Parameters
     ----------
