@@ -263,10 +263,11 @@ class _Search:
         return objectives, np.concatenate([np.empty((len(designs), 0)), *margins], axis=-1)
 
     def _differentiate(self, design: Array) -> DesignSlopes | None:
-        if self.should_stop():
-            raise KeyboardInterrupt
         slopes = self.slopes(design)
-        self.evaluations += slopes is not None
+        if slopes is not None:
+            if self.should_stop():
+                raise KeyboardInterrupt
+            self.evaluations += 1
         return slopes
 
     def _take(self, step: Step) -> None:
