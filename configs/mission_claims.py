@@ -198,10 +198,11 @@ def check_open(opened: Sequence[OpenBlock], study: Block) -> None:
             except KeyError as error:
                 missing = str(error.args[0])
                 known = type(getattr(study, one.path[0])).model_fields
+                hint = "" if missing in known else did_you_mean(missing, known)
                 raise wrong(
                     (*at, "key"),
-                    f"is no number of this study: {show(missing)} is unknown or has no number",
-                    f"{did_you_mean(missing, known)}write it as block.key".strip(),
+                    f"is no number of this study: {show(missing)} is unknown, absent or no number",
+                    f"{hint}name a number that the study gives, as block.key",
                 ) from None
             except ValidationError as error:
                 text = str(error.errors(include_url=False)[0]["msg"])
