@@ -45,14 +45,14 @@ def refuted(
 
     Returns
     -------
-    The assessments in the same order; unchanged where there are too many images to simulate, and
-    of combined acquisitions, each of which is simulated by itself.
+    The assessments in the same order; unchanged where there are too many images to simulate.
     """
     if settings is None or len(problem.radar.images) > MAX_IMAGES:
         return tuple(assessments)
+    others = len(problem.radar.images) - 1
     return tuple(
         assessment
-        if assessment.acquisitions
+        if 1 + others * len(assessment.acquisitions) > MAX_IMAGES
         else replace(
             assessment,
             refutation=refute(
@@ -63,6 +63,7 @@ def refuted(
                 prior_height_std=settings.prior_height_std,
                 samples=settings.samples,
                 rng=np.random.default_rng((seed, index)),
+                combined=bool(assessment.acquisitions),
             ),
         )
         for index, assessment in enumerate(assessments)

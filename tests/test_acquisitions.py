@@ -34,6 +34,7 @@ from insar import (
     one_transmitter,
     pair_geometry,
     phase_model,
+    simulation,
     unwrapping_ladder,
 )
 from reports.json_result import result_schema
@@ -534,3 +535,42 @@ def test_a_claim_over_a_range_holds_for_any_segment_that_may_be_meant():
     assert open_one.verdict is Verdict.OPEN
     (wide,) = outcome(**blocks, claims=[claim | {"value": 5.5, "tolerance": 2.5}]).claims
     assert wide.verdict is Verdict.HOLDS
+
+
+# -- the simulation of combined acquisitions -----------------------------------------------------
+
+
+def test_simulation_of_two_coverages_agrees_with_their_combination():
+    result = outcome(
+        radar=TWO["radar"] | {"looks": 80},  # so many that the bound is reached within 2 %
+        formation={"acquisitions": ACQUISITIONS},
+        refutation={"samples": 4000, "seed": 5},
+    )
+    refutation = result.formation.refutation
+    assert refutation.verdict is simulation.Verdict.AGREES
+    worst = refutation.segments[0]
+    # Three sampling errors of 2000 draws are 5 %.
+    assert worst.right_cycles.value == pytest.approx(worst.predicted_total, rel=0.05)
+    assert worst.relative.value == pytest.approx(worst.predicted_relative, rel=0.06)
+    # Together they unwrap what the shorter height of ambiguity does not.
+    apart = result.acquisitions[1].refutation.segments[0]
+    assert worst.wrong.value < 0.001 < 0.02 < apart.wrong.value
+
+
+def test_simulation_of_a_repeated_acquisition_knows_what_is_common():
+    """Four times the same: noise halves, the range error of 0.5 m stays."""
+    positions = np.zeros((2, 3, 3))
+    positions[:, 1:] = np.array([40.0, 120.0])[:, None] * np.cross(
+        SCENE.line_of_sight[0], [0.0, 1.0, 0.0]
+    )
+    errors = ErrorBudget(range=ErrorSource(0.5, SharedBy.ALL))
+    arguments = {"radar": RADAR, "errors": errors, "prior_height_std": 4.0, "samples": 3000}
+    one = simulation.refute(positions, SCENE, rng=np.random.default_rng(1), **arguments)
+    four = simulation.refute(
+        np.stack([positions] * 4), SCENE, rng=np.random.default_rng(2), combined=True, **arguments
+    )
+    ratio = one.segments[0].relative.value / four.segments[0].relative.value
+    assert ratio == pytest.approx(2.0, rel=0.1)  # 4 σ of the samples drawn of nine images
+    common = 0.5 * math.cos(SCENE.incidence[0])
+    shared = four.segments[0].right_cycles.value ** 2 - four.segments[0].relative.value ** 2
+    assert math.sqrt(shared) == pytest.approx(common, rel=0.1)

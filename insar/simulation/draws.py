@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 from ..errors import Scale
 from ..phase_model import PhaseModel
 from ..unwrapping import unwrapping_ladder
+from .combining import linked_data
 from .estimators import Processor, along_ladder, bootstrapped, likely_heights
 from .linking import linked_phases
 from .nature import Nature
-from .speckle import link_matrices
 
 Array = NDArray[np.float64]
 
@@ -81,7 +81,7 @@ def _draw_chunk(
     shared = np.repeat(scene_wide, pixels, axis=0) + own
     moved = nature.scene_height_std * np.repeat(rng.standard_normal(draws), pixels)
     moved += nature.pixel_height_std * rng.standard_normal(samples)
-    data = link_matrices(nature.speckle, samples=samples, rng=rng)
+    data = linked_data(nature, samples=samples, rng=rng)
     linked = linked_phases(data, rng=rng)
 
     processor = _processor(nature, prior_height_std)

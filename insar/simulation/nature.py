@@ -60,6 +60,8 @@ class Nature:
     pixel_height_std : scalar — of those that are drawn anew for each pixel [m].
     information : (M, M) — by which the estimators weigh the phases; nothing is drawn from it
         [1/rad²].
+    further : speckle of further acquisitions, which share the first image as their reference; see
+        `combining`.
     """
 
     vertical_wavenumber: Array
@@ -69,6 +71,7 @@ class Nature:
     scene_height_std: float
     pixel_height_std: float
     information: Array
+    further: tuple[Speckle, ...] = ()
 
     @property
     def factor(self) -> Array:

@@ -10,12 +10,14 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..acquisitions import combine_acquisitions
 from ..errors import ErrorBudget
 from ..height import height_error_of
 from ..phase_model import phase_model
 from ..radar import Radar
 from ..scene import Scene
 from ..unwrapping import unwrapping_ladder
+from .combining import combined_nature
 from .draws import Draw, draw
 from .nature import natural_errors, segment_nature
 
@@ -199,6 +201,7 @@ def refute(
     prior_height_std: float,
     samples: int,
     rng: np.random.Generator,
+    combined: bool = False,
 ) -> Refutation:
     """Simulate one formation and compare with what the error model predicts.
 
@@ -212,6 +215,8 @@ def refute(
     samples : pixels to draw, in pairs that share the errors of the scene; at least 100. With more
         than six images, whose estimates take long, fewer are drawn.
     rng : source of random numbers.
+    combined : whether the positions are (A, S, N, 3), of A acquisitions that are combined to one
+        height.
 
     Raises
     ------
@@ -234,15 +239,20 @@ def refute(
     if not (math.isfinite(prior_height_std) and prior_height_std > 0.0):
         raise ValueError(f"prior_height_std = {prior_height_std!r} must be finite and positive")
     natural = natural_errors(errors)
-    model = phase_model(positions, scene, radar=radar, errors=errors)
+    each = list(np.asarray(positions)) if combined else [positions]
+    models = [phase_model(one, scene, radar=radar, errors=errors) for one in each]
+    model = combine_acquisitions(models) if combined else models[0]
     predicted = height_error_of(model, scene=scene, radar=radar, errors=errors)
     failure = unwrapping_ladder(model, prior_height_std=prior_height_std).failure
-    draws = max(min(samples, int(samples * (_FULL_SAMPLES / len(radar.images)) ** 2)), 200) // 2
+    count = model.vertical_wavenumber.shape[-1]
+    draws = max(min(samples, int(samples * (_FULL_SAMPLES / count) ** 2)), 200) // 2
     segments = []
     for segment in _telling(failure, predicted.total):
-        nature = segment_nature(
-            positions, scene, segment=segment, radar=radar, errors=natural.errors
-        )
+        natures = [
+            segment_nature(one, scene, segment=segment, radar=radar, errors=natural.errors)
+            for one in each
+        ]
+        nature = combined_nature(natures) if combined else natures[0]
         drawn = draw(nature, prior_height_std=prior_height_std, draws=draws, pixels=2, rng=rng)
         segments.append(
             _compared(

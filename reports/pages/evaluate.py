@@ -50,7 +50,7 @@ def document(result: EvaluateResult, study: StudyInfo, provenance: Provenance) -
         sections.height_error_section(problem, [formation, *others]),
         pairs_section(problem, result.critical_baseline, single),
         unwrapping_section(problem, [formation, *others], ladder=result.formation),
-        refutation_section(problem, single[0], (*single[1:], *result.compare)),
+        refutation_section(problem, result.formation, (*apart, *result.compare)),
         sections.attribution_section([formation, *others[: min(2, len(apart))]]),
         dem_section(problem, result.dem),
         limits_section(problem, result.dem),
