@@ -10,9 +10,10 @@ from numpy.typing import NDArray
 
 from formation import Orbit, relative_positions
 from formation.constants import EARTH_EQUATORIAL_RADIUS
-from insar import LookSide, Scene
-from insar.simulation.terrain_results import TerrainRequest
-from insar.terrain import view_terrain
+from insar import LookSide, Radar, Scene
+from insar.simulation import TerrainRequest, natural_errors
+from insar.simulation.synthesis import unsupported_scales
+from insar.terrain import TerrainView, view_terrain
 
 from .build import formation_states
 from .domain import build_instrument
@@ -21,6 +22,12 @@ from .simulate_study import SimulateStudy
 from .terrain_files import build_terrain
 
 Array = NDArray[np.float64]
+
+MAX_IMAGES = 40
+"""Images of the largest formation that is simulated over terrain."""
+
+MAX_DRAWS = 1_000_000_000
+"""Looks that are drawn, of all points, images and acquisitions: a quarter of an hour."""
 
 
 class SimulateSetup(NamedTuple):
@@ -77,6 +84,12 @@ def build_simulate(study: SimulateStudy) -> SimulateSetup:
         side=side,
     )
     radar, errors = build_instrument(study.radar, study.errors, names, middle)
+    _check_effort(study, view, radar)
+    for name in unsupported_scales(natural_errors(errors).errors):
+        raise BuildError(
+            ("errors", f"{name}_scale"),
+            "is pixel, which is not drawn over a terrain; set it to scene, or remove it",
+        )
     states = formation_states(study.formation, names, orbit.mean_motion)
     n, start = orbit.mean_motion, block.middle_s
     request = TerrainRequest(
@@ -90,3 +103,20 @@ def build_simulate(study: SimulateStudy) -> SimulateSetup:
         acquisitions=study.simulation.acquisitions,
     )
     return SimulateSetup(request, names, states, study.simulation.seed, orbit)
+
+
+def _check_effort(study: SimulateStudy, view: TerrainView, radar: Radar) -> None:
+    """Refuse what would take hours."""
+    images, points = len(radar.images), view.layover.size
+    if images > MAX_IMAGES:
+        raise BuildError(
+            ("radar", "images"),
+            f"are {images}, more than {MAX_IMAGES}, the most over a terrain; leave some out",
+        )
+    draws = points * images * radar.looks * study.simulation.acquisitions
+    if draws > MAX_DRAWS:
+        raise BuildError(
+            ("simulation", "acquisitions"),
+            f"would draw {draws:.1e} looks of {points} points and {images} images, more than "
+            f"{MAX_DRAWS:.0e}; crop the terrain, or take fewer acquisitions or looks",
+        )

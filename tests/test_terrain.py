@@ -344,6 +344,24 @@ def test_wrong_terrain_of_a_study_is_refused(terrain, message, tmp_path, capsys)
     assert "study.yaml" in error
 
 
+@pytest.mark.parametrize(
+    ("old", "new", "messages"),
+    [
+        ("z0_m: 141", "z0_m: 0", ["formation", "no point of the terrain is measured"]),
+        ("position_m: 0.001", "position_m: 0.001, position_scale: pixel", ["position_scale"]),
+        ("looks: 16", "looks: 10000", ["acquisitions", "crop the terrain"]),
+        ("acquisitions: 1", "acquisitions: 0", ["acquisitions", "from 1"]),
+    ],
+)
+def test_wrong_simulation_is_refused_in_one_message(old, new, messages, tmp_path, capsys):
+    study = write(tmp_path, "sample: jacksboro, crop: {rows: [0, 200], columns: [0, 300]}")
+    study.write_text(study.read_text("utf-8").replace(old, new), "utf-8")
+    assert main([str(study), "--out", str(tmp_path / "out"), "--quiet"]) == 2
+    error = capsys.readouterr().err
+    assert all(message in error for message in messages)
+    assert "Traceback" not in error
+
+
 def geotiff(path: Path, heights: np.ndarray, *, model: int, scale: float) -> None:
     tifffile = pytest.importorskip("tifffile")
     directory = (1, 1, 0, 2, 1024, 0, 1, model, 1025, 0, 1, 1)

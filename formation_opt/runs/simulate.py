@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from configs import SimulateStudy
+from configs import BuildError, SimulateStudy
 from configs.simulated import SimulateSetup
 from insar.simulation import Comparison, TerrainSimulation, simulate_terrain
 
@@ -20,12 +20,26 @@ def run(study: SimulateStudy, setup: SimulateSetup, options: Options) -> Outcome
     study : the validated study.
     setup : what it is computed with.
     options : of the command line.
+
+    Raises
+    ------
+    BuildError
+        If the formation measures no point of the terrain.
     """
     seed = setup.seed if options.seed is None else options.seed
-    result = simulate_terrain(
-        setup.request, rng=np.random.default_rng(seed), should_stop=options.should_stop
+    try:
+        result = simulate_terrain(
+            setup.request, rng=np.random.default_rng(seed), should_stop=options.should_stop
+        )
+    except ValueError as error:
+        raise BuildError(("formation",), f"cannot be simulated: {error}") from None
+    return Outcome(
+        result=result,
+        summary=_summary(result),
+        seed=seed,
+        orbit=setup.orbit,
+        interrupted=len(result.offsets) < setup.request.acquisitions,
     )
-    return Outcome(result=result, summary=_summary(result), seed=seed, orbit=setup.orbit)
 
 
 def _summary(result: TerrainSimulation) -> Summary:

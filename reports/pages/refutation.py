@@ -11,7 +11,15 @@ from ..document import Block, Callout, Column, Figure, Paragraph, Section, Statu
 from ..figures.refutation import refutation_figure
 from ..refutation_words import VERDICTS, finding, worst_of
 from ..tables_refutation import gain_frame, refutation_frame
-from ..wording import counted, formation_name, joined, to_decimals, to_digits
+from ..wording import (
+    counted,
+    formation_name,
+    joined,
+    plain,
+    quantity,
+    to_decimals,
+    to_digits,
+)
 
 STATUS = {
     Verdict.AGREES: Status.GOOD,
@@ -52,7 +60,7 @@ def refutation_section(
             _TITLES[refutation.verdict],
             tuple(finding(segment) for segment in refutation.segments),
         ),
-        Paragraph(_how(refutation)),
+        Paragraph(_how(problem, refutation)),
     ]
     if refutation.departures:
         blocks.append(Paragraph(_departures(refutation)))
@@ -72,12 +80,16 @@ def refutation_section(
     return Section("simulation", "Does a simulation agree?", tuple(blocks))
 
 
-def _how(refutation: Refutation) -> str:
+def _how(problem: Problem, refutation: Refutation) -> str:
+    prior = quantity(plain(refutation.segments[0].prior_height_std), "m")
+    given = problem.constraints.prior_height_std is not None
+    known = f"{prior}, as the study has it" if given else f"{prior}, since the study gives none"
     return (
         f"{counted(refutation.samples, 'pixel')} of each segment were drawn: complex speckle and "
         "noise look by look from the coherence matrix, each image in its own part of the "
         f"spectrum; errors at their scales ({counted(refutation.draws, 'draw')} of those that stay "
-        "the same over a scene); true heights from the prior. Heights were then estimated from "
+        "the same over a scene); true heights from the prior ("
+        f"{known}). Heights were then estimated from "
         "wrapped phases, twice: along the unwrapping ladder by weighted least squares, as the "
         "error model has it, and by maximum likelihood with the prior over all cycles. The "
         "segments are the one with the least probability of right cycles and the median. A "
