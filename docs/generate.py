@@ -15,6 +15,7 @@ DOCS = Path(__file__).parent
 sys.path.insert(0, str(DOCS))
 
 from tables import (  # noqa: E402 — found beside this file
+    dem_quality,
     error_model,
     li2009,
     missions,
@@ -29,6 +30,7 @@ from tables import (  # noqa: E402 — found beside this file
 
 _MODULES = (
     error_model,
+    dem_quality,
     phase_statistics,
     li2009,
     validation,
