@@ -25,6 +25,7 @@ def _accuracy(relative_90, absolute_90):
     return HeightAccuracy(
         cell=Cell(),
         random=relative,
+        random_pair_90=relative,
         sources={},
         residual=None,
         relative=relative,
