@@ -18,7 +18,7 @@ from .studies import (
     SteeringStudy,
     json_schema,
 )
-from .study import Study
+from .study import SourcedStudy, Study
 
 __all__ = [
     "STUDIES",
@@ -29,6 +29,7 @@ __all__ = [
     "LoadedStudy",
     "OptimizeStudy",
     "SimulateStudy",
+    "SourcedStudy",
     "SpotlightStudy",
     "SteeringStudy",
     "Study",

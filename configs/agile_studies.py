@@ -17,6 +17,7 @@ from .agile import (
     VideoBlock,
     YawBlock,
 )
+from .agile_claims import CoverageClaimBlock, SpotlightClaimBlock, VideoClaimBlock
 from .base import Whole, wrong
 from .checks import check_placed
 from .coverage import (
@@ -27,12 +28,11 @@ from .coverage import (
     WalkerSearchBlock,
 )
 from .orbits import OrbitBlock
-from .spotlight_claims import SpotlightClaimBlock
 from .steering import SteeredRadarBlock
-from .study import Study
+from .study import SourcedStudy
 
 
-class AgileStudy(Study):
+class AgileStudy(SourcedStudy):
     """What the studies of a satellite that turns as a whole have in common."""
 
     orbit: OrbitBlock = Field(description="The orbit.")
@@ -86,6 +86,9 @@ class VideoStudy(AgileStudy):
     footprints: Annotated[Whole, Field(ge=2, le=1001)] = Field(
         default=101, description="Outlines of the beam on the ground, equally spaced over the film."
     )
+    claims: tuple[VideoClaimBlock, ...] = Field(
+        default=(), max_length=100, description="Printed figures to compare with."
+    )
 
     @model_validator(mode="after")
     def _check(self) -> Self:
@@ -99,7 +102,7 @@ class VideoStudy(AgileStudy):
         return self
 
 
-class CoverageStudy(Study):
+class CoverageStudy(SourcedStudy):
     """How well constellations keep places in view, and how many satellites that takes."""
 
     kind: Literal["coverage"] = Field(description="What the study does.")
@@ -117,6 +120,9 @@ class CoverageStudy(Study):
         default=SimulationBlock(),
         description="Where and for how long constellations are simulated: the sized one, those "
         "given, and the one that is found.",
+    )
+    claims: tuple[CoverageClaimBlock, ...] = Field(
+        default=(), max_length=100, description="Printed figures to compare with."
     )
 
     @model_validator(mode="after")

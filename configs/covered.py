@@ -8,11 +8,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from insar import LookSide
+from insar import LookSide, Relation
+from insar.observe.coverage.claims import CoverageClaim, CoverageQuantity
 from insar.observe.coverage.results import WalkerSizing
 from insar.observe.coverage.sizing import walker_sizing
 from insar.observe.coverage.walker import Visibility, Walker
 
+from .agile_claims import COVERAGE_UNITS
 from .agile_studies import CoverageStudy
 from .coverage import SizingBlock, VisibilityBlock, WalkerBlock, WalkerSearchBlock
 from .messages import BuildError
@@ -80,6 +82,7 @@ class CoverageSetup(NamedTuple):
     latitudes : (L,) — geodetic, of the places that are simulated [rad].
     longitudes : places at each latitude.
     duration : of the simulations [s].
+    claims : printed figures; may be empty.
     """
 
     visibility: Visibility
@@ -89,6 +92,7 @@ class CoverageSetup(NamedTuple):
     latitudes: Array
     longitudes: int
     duration: float
+    claims: tuple[CoverageClaim, ...]
 
 
 def build_coverage(study: CoverageStudy) -> CoverageSetup:
@@ -113,6 +117,14 @@ def build_coverage(study: CoverageStudy) -> CoverageSetup:
         latitudes=np.radians(np.linspace(south, north, simulation.latitude_samples)),
         longitudes=simulation.longitudes,
         duration=_DAY * simulation.duration_days,
+        claims=tuple(
+            CoverageClaim(
+                quantity=CoverageQuantity(claim.quantity),
+                relation=Relation(claim.relation),
+                **claim.figure(COVERAGE_UNITS[claim.quantity]),
+            )
+            for claim in study.claims
+        ),
     )
     _check_size(setup)
     return setup

@@ -177,6 +177,12 @@ class OrbitBlock(Block):
             raise wrong(
                 (other,), f"contradicts {self.source}, which gives the whole orbit", "keep one"
             )
+        if self.tle is not None and (name := _file_named(self.tle)):
+            raise wrong(
+                ("tle",),
+                "looks like the name of a file, and takes the two lines themselves",
+                f"write tle_file: {name}",
+            )
         try:
             if self.is_placed:
                 build_trajectory(self)
@@ -207,6 +213,15 @@ class OrbitBlock(Block):
                     "add epoch: 2026-11-23T05:07:00Z, the moment that you mean",
                 )
         check_perigee(self.semi_major_axis, self.eccentricity or 0.0, ("eccentricity",))
+
+
+def _file_named(tle: str | tuple[str, ...]) -> str | None:
+    """The file that was given in place of two-line elements; None for what may be elements."""
+    lines = tle.strip().splitlines() if isinstance(tle, str) else tle
+    first = lines[0].strip() if lines else ""
+    like_a_name = " " not in first and ("/" in first or "\\" in first or "." in first)
+    no_elements = not any(line.startswith(("1 ", "2 ")) for line in lines)
+    return first if like_a_name and no_elements else None
 
 
 def check_perigee(semi_major_axis: float, eccentricity: float, at: KeyPath) -> None:

@@ -16,6 +16,7 @@ from insar.observe.agile.spotlight_plan import plan_pass, plan_spotlight
 from insar.observe.agile.spotlight_results import SpotlightRequest
 from insar.observe.agile.staring import StaringScene, staring_scene
 from insar.observe.agile.video import video
+from insar.observe.agile.video_claims import VideoClaim, VideoQuantity
 from insar.observe.agile.video_results import VideoRequest, YawLaw
 from insar.observe.scenes.passes import Direction
 
@@ -26,18 +27,18 @@ from .agile import (
     SpotlightSceneBlock,
     VideoSceneBlock,
 )
+from .agile_claims import SPOTLIGHT_UNITS, VIDEO_UNITS
 from .agile_studies import SpotlightStudy, VideoStudy
 from .messages import BuildError, KeyPath
 from .orbits import build_reference
 from .placed import DAY, PlacedTrajectory, placed_trajectory, refusal
-from .spotlight_claims import UNITS, SpotlightClaimBlock
 
 _SIDES = {"either": None, "left": LookSide.LEFT, "right": LookSide.RIGHT}
 
 _ANY_RESOLUTION = 1.0
 """Of what only needs the moment of zero Doppler, which does not depend on it [m]."""
 
-_BLAMED = {"number = ": "pass_number", "resolution = ": "resolution_m"}
+_BLAMED = {"number = ": "pass_number", "resolution = ": "resolution_m", "slope = ": "slope_deg"}
 """Keys to blame, by how the message begins."""
 
 _FEW = 3
@@ -69,12 +70,14 @@ class VideoSetup(NamedTuple):
     request : place, orbit, frames and beam.
     samples : of the attitude.
     footprints : outlines of the beam on the ground.
+    claims : printed figures; may be empty.
     orbit : circular reference of the orbit.
     """
 
     request: VideoRequest
     samples: int
     footprints: int
+    claims: tuple[VideoClaim, ...]
     orbit: Orbit
 
 
@@ -106,7 +109,14 @@ def build_spotlight(study: SpotlightStudy) -> SpotlightSetup:
     return SpotlightSetup(
         request=request,
         samples=study.samples,
-        claims=tuple(_claim(claim) for claim in study.claims),
+        claims=tuple(
+            SpotlightClaim(
+                quantity=SpotlightQuantity(claim.quantity),
+                relation=Relation(claim.relation),
+                **claim.figure(SPOTLIGHT_UNITS[claim.quantity]),
+            )
+            for claim in study.claims
+        ),
         orbit=build_reference(study.orbit),
     )
 
@@ -159,6 +169,14 @@ def build_video(study: VideoStudy) -> VideoSetup:
         request=request,
         samples=study.samples,
         footprints=study.footprints,
+        claims=tuple(
+            VideoClaim(
+                quantity=VideoQuantity(claim.quantity),
+                relation=Relation(claim.relation),
+                **claim.figure(VIDEO_UNITS[claim.quantity]),
+            )
+            for claim in study.claims
+        ),
         orbit=build_reference(study.orbit),
     )
 
@@ -257,21 +275,6 @@ def _limit(
         x, y, z = (math.radians(limit) for limit in degrees)
         return x, y, z
     return math.radians(degrees)
-
-
-def _claim(block: SpotlightClaimBlock) -> SpotlightClaim:
-    counted = UNITS[block.quantity]
-    return SpotlightClaim(
-        text=block.text,
-        printed=block.printed,
-        quantity=SpotlightQuantity(block.quantity),
-        value=block.value * counted.scale,
-        tolerance=block.tolerance * counted.scale,
-        relation=Relation(block.relation),
-        unit=counted.unit,
-        scale=counted.scale,
-        note=block.note,
-    )
 
 
 def _unseen(at: KeyPath, error: ValueError) -> BuildError:

@@ -15,6 +15,7 @@ DOCS = Path(__file__).parent
 sys.path.insert(0, str(DOCS))
 
 from tables import (  # noqa: E402 — found beside this file
+    coverage,
     dem_quality,
     error_model,
     li2009,
@@ -29,6 +30,7 @@ from tables import (  # noqa: E402 — found beside this file
 )
 
 _MODULES = (
+    coverage,
     error_model,
     dem_quality,
     phase_statistics,

@@ -11,7 +11,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
-from configs import BuildError, LoadedStudy, effective_text
+from configs import BuildError, LoadedStudy, SourcedStudy, effective_text
 from reports import Provenance, StudyInfo, write_report
 
 from . import provenance, terminal
@@ -135,6 +135,7 @@ def _execute(
         inclination=None if outcome.orbit is None else outcome.orbit.inclination,
         observation=outcome.observation,
         inputs=tuple((file.name, file.sha256) for file in loaded.files),
+        inferred=study.inferred_inputs if isinstance(study, SourcedStudy) else (),
     )
     how = Provenance(
         version=provenance.program(),

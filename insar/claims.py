@@ -40,6 +40,7 @@ class PrintedFigure:
     unit : of the claim, as the report shows it; empty for none.
     scale : one such unit, SI.
     note : why, in words.
+    fitted : inputs were chosen so that it holds.
     """
 
     text: str
@@ -50,6 +51,7 @@ class PrintedFigure:
     unit: str = ""
     scale: float = 1.0
     note: str = ""
+    fitted: bool = False
 
 
 class Claim(NamedTuple):
@@ -67,6 +69,7 @@ class Claim(NamedTuple):
         claim; infinite where there is no limit.
     lowest, highest : between which the computed figure lies for what the source leaves open, in the
         unit of the claim; NaN where nothing is open.
+    fitted : inputs were chosen so that it holds: then its holding confirms nothing.
     """
 
     text: str
@@ -79,6 +82,7 @@ class Claim(NamedTuple):
     most: float = math.inf
     lowest: float = math.nan
     highest: float = math.nan
+    fitted: bool = False
 
 
 def judged(figure: PrintedFigure, computed: float, *, note: str | None = None) -> Claim:
@@ -102,6 +106,7 @@ def judged(figure: PrintedFigure, computed: float, *, note: str | None = None) -
         note=figure.note if note is None else note,
         least=least / figure.scale,
         most=most / figure.scale,
+        fitted=figure.fitted,
     )
 
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from insar import LookSide
 from insar.observe.agile.spotlight_results import Pointing
-from insar.observe.agile.video_results import Staring, YawLaw
+from insar.observe.agile.video_results import Staring, VideoResult, YawLaw
 from insar.observe.coverage.results import Verdict
 from insar.observe.coverage.walker import Visibility, Walker
 
@@ -58,6 +58,18 @@ def pointing_reason(pointing: NDArray[np.int_]) -> str | None:
 def staring_reason(staring: NDArray[np.int_]) -> str | None:
     """The same of a film."""
     return _reason(staring, _STARING)
+
+
+def common_reason(result: VideoResult) -> str | None:
+    """Why it is not known what all footprints see; None where it is."""
+    prints = result.footprints
+    if np.isfinite(prints.common_area):
+        return None
+    drawn = np.isfinite(prints.latitude).any(axis=-1)
+    past = int(np.count_nonzero(drawn & ~np.isfinite(prints.area)))
+    if past:
+        return f"the beam reaches past the horizon in {past} of {drawn.size} outlines"
+    return "there is no outline"
 
 
 def _reason(found: NDArray[np.int_], words: Mapping[Any, str]) -> str | None:

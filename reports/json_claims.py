@@ -22,6 +22,7 @@ def claims_json(claims: Sequence[Claim]) -> list[Json]:
             "possible_to": finite(claim.highest),
             "unit": claim.unit,
             "verdict": claim.verdict.value,
+            "fitted": claim.fitted,
             "note": claim.note,
         }
         for claim in claims

@@ -8,6 +8,7 @@ from insar.observe.coverage.results import Coverage, CoverageResult, SizingShort
 from insar.observe.coverage.walker import Visibility, Walker
 
 from .agile_words import side_name, verdict_name
+from .json_claims import claims_json
 from .json_numbers import Json, finite, finite_list
 
 
@@ -18,6 +19,7 @@ def coverage_json(result: CoverageResult) -> Json:
             "sizing": None if result.shortfall is None else _sizing(result.shortfall),
             "simulations": [_simulation(one) for one in result.simulations],
             "search": None if result.search is None else _search(result.search),
+            "claims": claims_json(result.claims),
         },
         "warnings": list(result.warnings),
     }

@@ -6,7 +6,8 @@ import numpy as np
 
 from insar.observe.agile.video_results import FrameModel, LawSummary, VideoResult
 
-from .agile_words import staring_reason
+from .agile_words import common_reason, staring_reason
+from .json_claims import claims_json
 from .json_numbers import Json, finite
 from .json_spotlight import maneuver_json, place_json, plan_json
 from .tables_steering import largest, least
@@ -48,6 +49,7 @@ def video_json(result: VideoResult) -> Json:
                 "count": len(prints.times),
                 "max_area_m2": finite(largest(prints.area)),
                 "common_area_m2": finite(prints.common_area),
+                "reason": common_reason(result),
             },
             "pointing": {
                 "error_rad": [finite(error) for error in request.pointing_error],
@@ -55,6 +57,7 @@ def video_json(result: VideoResult) -> Json:
                 "max_rotation_rad": finite(largest(result.pointing.rotation)),
             },
             "orbit_misfit_m": finite(result.orbit_misfit),
+            "claims": claims_json(result.claims),
         },
         "warnings": list(result.warnings),
     }
@@ -84,5 +87,14 @@ def _law(summary: LawSummary) -> Json:
         "max_rate_inertial_rad_s": finite(summary.rate_inertial),
         "common_area_fraction": finite(summary.common_area),
         "solved_fraction": finite(summary.solved),
-        "reason": None if summary.solved == 1.0 else "the law has no solution at some samples",
+        "reason": _law_reason(summary),
     }
+
+
+def _law_reason(summary: LawSummary) -> str | None:
+    """Why something of a law is null, or of part of the film only."""
+    if summary.solved < 1.0:
+        return "the law has no solution at some samples"
+    if not np.isfinite(summary.common_area):
+        return "the beam reaches past the horizon"
+    return None

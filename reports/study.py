@@ -29,6 +29,7 @@ class StudyInfo:
     observation : where the scene comes from, a pass over targets or one place that is watched; None
         if the study gives it.
     inputs : the files that the study reads, each with its SHA-256.
+    inferred : inputs that are not the source's but inferred, key and value.
     """
 
     name: str
@@ -41,6 +42,7 @@ class StudyInfo:
     inclination: float | None = None
     observation: Observation | StaringScene | None = None
     inputs: tuple[tuple[str, str], ...] = ()
+    inferred: tuple[tuple[str, str], ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -10,6 +10,7 @@ import pandas as pd
 from insar.observe.coverage.results import Coverage, CoverageResult, WalkerSearch
 
 from .agile_words import verdict_name, walker_name
+from .tables_steering import claims_frame
 
 MINUTE = 60.0
 DAY = 86400.0
@@ -103,4 +104,6 @@ def coverage_tables(result: CoverageResult) -> dict[str, pd.DataFrame]:
         tables["coverage.csv"] = coverage_frame(result.simulations)
     if result.search is not None:
         tables["candidates.csv"] = candidates_frame(result.search)
+    if result.claims:
+        tables["claims.csv"] = claims_frame(result.claims)
     return tables

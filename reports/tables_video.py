@@ -11,6 +11,7 @@ from insar.observe.agile.video_results import Staring, VideoResult
 
 from .agile_words import yaw_law_name
 from .tables_spotlight import profile_columns
+from .tables_steering import claims_frame
 
 MODELS = ("exact", "hyperbolic")
 
@@ -132,9 +133,12 @@ def pointing_frame(result: VideoResult) -> pd.DataFrame:
 
 def video_tables(result: VideoResult) -> dict[str, pd.DataFrame]:
     """Tables by the name of their file."""
-    return {
+    tables = {
         "video.csv": video_frame(result),
         "frames.csv": frames_frame(result),
         "footprints.csv": footprints_frame(result),
         "yaw_laws.csv": laws_frame(result).drop(columns="name"),
     }
+    if result.claims:
+        tables["claims.csv"] = claims_frame(result.claims)
+    return tables

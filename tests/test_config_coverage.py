@@ -21,6 +21,7 @@ from configs.covered import build_coverage
 from formation_opt.runs import Options
 from formation_opt.runs import coverage as runs_coverage
 from insar import LookSide
+from insar.observe.coverage.claims import CoverageQuantity
 from insar.observe.coverage.results import Verdict
 from insar.observe.coverage.walker import Visibility, Walker
 
@@ -135,6 +136,34 @@ def test_a_search_in_vain_or_in_steps_says_so():
 
 
 # --- the shipped example -------------------------------------------------------------------------
+
+
+def test_a_range_below_the_least_says_why_nothing_was_searched():
+    outcome = ran(search=SEARCH | {"satellites": [2, 9]})
+    result = outcome.result
+    assert result.search.candidates.total.size == 0
+    least = result.search.least_total
+    assert least > 9
+    (text,) = result.warnings
+    assert text.startswith("Nothing was searched: by the time that one satellite sees a place, ")
+    assert f"fewer than {least} satellites" in text
+    assert f"the range ends at 9; search from {least} on" in text
+
+
+def test_claims_of_a_sizing_are_judged():
+    sizing = {"altitude_km": 600, "inclination_deg": 97.6, "latitude_deg": 33.16}
+    claims = [
+        {"text": "a", "printed": "b", "quantity": quantity.value, "value": 24}
+        for quantity in CoverageQuantity
+    ]
+    result = ran(visibility={"max_incidence_deg": 60}, sizing=sizing, claims=claims).result
+    found = dict(zip(CoverageQuantity, result.claims, strict=True))
+    assert found[CoverageQuantity.SATELLITES_PER_PLANE].verdict.value == "holds"
+    assert found[CoverageQuantity.SATELLITES].computed == 360.0
+    assert found[CoverageQuantity.SIZED_COVER].computed == pytest.approx(76.5, abs=0.1)
+    assert found[CoverageQuantity.SIZED_COVER_ALL].unit == "%"
+    # Nothing is searched.
+    assert found[CoverageQuantity.SMALLEST].verdict.value == "not computable"
 
 
 def test_the_example_sizes_360_which_do_not_do_and_finds_250_which_do():

@@ -305,6 +305,18 @@ REFUSED = {
         "orbit and the equator; above 90 retrograde)",
     ),
     "number for two lines": (
+        "orbit: {tle: /home/me/sat.tle}\n",
+        "/home",
+        "orbit.tle = '/home/me/sat.tle' looks like the name of a file, and takes the two lines "
+        "themselves; write tle_file: /home/me/sat.tle",
+    ),
+    "name of a file in a list": (
+        "orbit: {tle: [sat.tle, other.tle]}\n",
+        "[sat",
+        "orbit.tle = ['sat.tle', 'other.tle'] looks like the name of a file, and takes the two "
+        "lines themselves; write tle_file: sat.tle",
+    ),
+    "number as elements": (
         "orbit: {tle: 31698}\n",
         "31698",
         "orbit.tle = 31698 must be text such as '1 25544U 98067A ...', or a list of 2 to 3 "

@@ -20,8 +20,8 @@ from configs import (
     example_text,
     load_study,
 )
+from configs.agile_claims import SPOTLIGHT_UNITS as UNITS
 from configs.build import build_optimize
-from configs.spotlight_claims import UNITS
 from configs.staring import build_spotlight
 from formation_opt.runs import Options
 from formation_opt.runs import spotlight as runs_spotlight
@@ -293,8 +293,8 @@ WRONG = {
         "quantity: bandwith",
         "bandwith",
         "claims[#5].quantity = 'bandwith' must be one of yaw_range, pitch_range, roll_range, "
-        "largest_rate, largest_acceleration, imaging_time, ground_speed, bandwidth, resolution, "
-        "aim_error; did you mean 'bandwidth'?",
+        "largest_rate, largest_acceleration, imaging_time, first_order_time, ground_speed, "
+        "bandwidth, resolution, aim_error; did you mean 'bandwidth'?",
     ),
     "unknown key": (
         HAN,
@@ -303,6 +303,22 @@ WRONG = {
         "weighting:",
         "spotlight.weighting is not a known key; did you mean 'weighting_factor'? the keys of "
         f"spotlight are {_SPOTLIGHT_KEYS}",
+    ),
+    "inferred input that is not there": (
+        HAN,
+        "  - orbit.altitude_km\n",
+        "  - orbit.altitud_km\n",
+        "orbit.altitud_km",
+        "inferred[#1] = 'orbit.altitud_km' names no input of the study: there is no 'altitud_km'; "
+        "did you mean 'altitude_km'? write keys with points between, as in orbit.altitude_km",
+    ),
+    "resolution out of reach": (
+        HAN.replace("wavelength_m: 0.0312283810", "wavelength_m: 0.24"),
+        "resolution_m: 0.6 ",
+        "resolution_m: 0.05 ",
+        "0.05 ",
+        "spotlight.resolution_m = 0.05 cannot be used: is out of reach: while the aim point sees "
+        "the satellite, ",
     ),
     "never seen": (
         HAN,
@@ -359,8 +375,10 @@ WRONG = {
         SCENE,
         "    segments: 11 ",
         "    slope_deg: 59\n    segments: 11 ",
-        "spotlight:",
-        "scene.spotlight cannot be used: slope = 1.02",
+        "59\n",
+        "scene.spotlight.slope_deg = 59 cannot be used: lies in layover or shadow, where no phase "
+        "is measured: at incidences of 40.01° to 40.05° it must be between -49.95° and 40.01°; "
+        "choose a gentler slope, or 0",
     ),
     "film beyond the horizon": (
         SCENE,

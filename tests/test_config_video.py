@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 import re
 from pathlib import Path
@@ -18,10 +19,12 @@ from configs import (
     example_text,
     load_study,
 )
+from configs.agile_claims import VIDEO_UNITS, VideoClaimBlock
 from configs.staring import build_video
 from formation_opt.runs import Options
 from formation_opt.runs import video as runs_video
 from insar import LookSide
+from insar.observe.agile.video_claims import VideoClaim, VideoQuantity, judge_video
 from insar.observe.agile.video_results import YawLaw
 from insar.observe.scenes.passes import Direction
 
@@ -137,11 +140,61 @@ def test_the_film_of_sasebo_is_that_of_the_reference(sasebo):
     assert np.degrees(np.abs(sasebo.result.distortion.azimuth_trace).max()) < 1e-9
 
 
+def test_what_the_paper_says_is_judged(sasebo):
+    """Four statements hold, one of them by construction, four do not; each says why."""
+    claims = {claim.text: claim for claim in sasebo.result.claims}
+    assert len(claims) == 8
+    verdicts = [claim.verdict.value for claim in claims.values()]
+    assert verdicts.count("holds") == 4
+    assert verdicts.count("does not hold") == 4
+    assert [text for text, claim in claims.items() if claim.fitted] == ["Moment of zero Doppler"]
+    assert all(claim.note or claim.fitted for claim in claims.values())
+    # The measures against what the result has.
+    law = next(law for law in sasebo.result.laws if law.law is YawLaw.AZIMUTH_TRACE)
+    computed = {claim.text.split("; ")[-1]: claim.computed for claim in claims.values()}
+    assert computed["trace of the range plane"] == pytest.approx(math.degrees(law.range_trace))
+    assert computed["longest diameter"] == pytest.approx(math.degrees(law.major_axis))
+    assert computed["Moment of zero Doppler"] == pytest.approx(29383.0, abs=0.01)
+    speed, frames = sasebo.result.plan.ground_speed, sasebo.result.frames
+    # Of small aperture angles: 3e-5.
+    assert computed[
+        "Frame length by eq. 3, at zero Doppler, by the one that the resolution needs"
+    ] == pytest.approx(frames.effective_speed / speed, rel=1e-4)
+
+
+@pytest.mark.parametrize("quantity", VideoQuantity)
+def test_every_quantity_of_a_film_is_computed(quantity, sasebo):
+    block = VideoClaimBlock(text="a", printed="b", quantity=quantity.value, value=1.0)
+    counted = VIDEO_UNITS[block.quantity]
+    claim = VideoClaim(quantity=quantity, **block.figure(counted))
+    judged = judge_video(claim, sasebo.result)
+    assert math.isfinite(judged.computed)
+    assert judged.unit == counted.unit
+    lost = dataclasses.replace(
+        sasebo.result,
+        profile=sasebo.result.profile._replace(
+            pitch=np.full_like(sasebo.result.profile.pitch, np.nan)
+        ),
+    )
+    if quantity in (VideoQuantity.LARGEST_PITCH, VideoQuantity.PITCH_TO_ROLL):
+        assert judge_video(claim, lost).verdict.value == "not computable"
+
+
 def test_what_is_not_the_papers_is_called_inferred():
     study = load_study(example_path("liang2018_video")).study
     assert "inferred" in study.description
     printed = [line for line in LIANG.splitlines() if "# printed" in line]
     assert [line.split(":")[0].strip() for line in printed] == ["epoch", "duration_s"]
+    named = dict(study.inferred_inputs)
+    assert named["orbit.altitude_km"] == "514"
+    assert named["video.target.latitude_deg"] == "33.16"  # a block is named key by key
+    marked = {
+        line.split(":")[0].strip()
+        for line in LIANG[: LIANG.index("inferred:   ")].splitlines()
+        if re.search(r": .*# inferred", line)
+    }
+    left_out = {"target", "max_overlap", "pointing_error_deg"}
+    assert marked - left_out <= {part for key in named for part in key.split(".")}
 
 
 def test_the_terminal_says_what_the_law_leaves(sasebo):

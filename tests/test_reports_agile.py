@@ -442,7 +442,7 @@ def test_coverage_verdict_tells_shortfall_and_proof(covered: CoverageResult) -> 
 
 def test_no_constellation_found_is_not_a_success() -> None:
     text = page_text(make_coverage(totals=(20,)))
-    assert "No pattern that was searched keeps the band in view" in text
+    assert "The range of the search is too small for any pattern to do" in text
 
 
 def test_waterfall_ends_where_the_reasons_do(covered: CoverageResult) -> None:

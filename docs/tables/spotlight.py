@@ -11,6 +11,8 @@ from typing import Any
 
 import numpy as np
 
+from configs import load_study
+from configs.staring import build_spotlight
 from formation import (
     KeplerianOrbit,
 )
@@ -18,11 +20,13 @@ from insar import (
     LookSide,
 )
 from insar.observe.agile.spotlight import spotlight
+from insar.observe.agile.spotlight_claims import judge_spotlight
 from insar.observe.agile.spotlight_results import SpotlightRequest, SpotlightResult
 from insar.observe.earth import intersect, to_geodetic
 from insar.observe.look import angle_at_look, zero_doppler_plane
 
-from .markdown import PUBLISHED, markdown_table
+from .markdown import DOCS, PUBLISHED, markdown_table
+from .verdicts import verdict_table
 
 HAN2016: dict[str, Any] = tomllib.loads((PUBLISHED / "han2016.toml").read_text(encoding="utf-8"))
 
@@ -100,7 +104,16 @@ def han2016_aim() -> str:
     return markdown_table(["the attitude considers", "left", "right"], rows)
 
 
+def han2016_verdicts() -> str:
+    """The claims of the shipped study, judged."""
+    setup = build_spotlight(load_study(DOCS.parent / "configs" / "han2016_spotlight.yaml").study)
+    result = spotlight(setup.request, setup.samples)
+    claims = [judge_spotlight(claim, result) for claim in setup.claims]
+    return verdict_table(claims, "from inferred inputs")
+
+
 TABLES: dict[str, Callable[[], str]] = {
+    "han2016_verdicts": han2016_verdicts,
     "han2016_figures": han2016_figures,
     "han2016_aim": han2016_aim,
 }

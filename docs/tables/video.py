@@ -10,13 +10,17 @@ from typing import Any
 
 import numpy as np
 
+from configs import load_study
+from configs.staring import build_video
 from formation import (
     KeplerianOrbit,
 )
 from insar.observe.agile.video import video
+from insar.observe.agile.video_claims import judge_video
 from insar.observe.agile.video_results import VideoRequest, VideoResult
 
-from .markdown import PUBLISHED, markdown_table
+from .markdown import DOCS, PUBLISHED, markdown_table
+from .verdicts import verdict_table
 
 LIANG2018: dict[str, Any] = tomllib.loads(
     (PUBLISHED / "liang2018.toml").read_text(encoding="utf-8")
@@ -138,7 +142,16 @@ def liang2018_pointing() -> str:
     return markdown_table(["turn", "center moves by [m]", "azimuth trace rotates by [mrad]"], rows)
 
 
+def liang2018_verdicts() -> str:
+    """The claims of the shipped study, judged."""
+    setup = build_video(load_study(DOCS.parent / "configs" / "liang2018_video.yaml").study)
+    result = video(setup.request, 201, 11)
+    claims = [judge_video(claim, result) for claim in setup.claims]
+    return verdict_table(claims, "from inferred inputs")
+
+
 TABLES: dict[str, Callable[[], str]] = {
+    "liang2018_verdicts": liang2018_verdicts,
     "liang2018_rates": liang2018_rates,
     "liang2018_laws": liang2018_laws,
     "liang2018_frames": liang2018_frames,

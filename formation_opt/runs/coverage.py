@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import dataclasses
+
 import numpy as np
 
 from configs import BuildError, CoverageStudy
 from configs.covered import CoverageSetup, SearchTask
+from insar.observe.coverage.claims import judge_coverage
 from insar.observe.coverage.results import Coverage, CoverageResult, Verdict, WalkerSearch
 from insar.observe.coverage.simulation import simulate_coverage, symmetric_longitudes
 from insar.observe.coverage.sizing import sizing_shortfall
@@ -51,6 +54,8 @@ def run(study: CoverageStudy, setup: CoverageSetup, options: Options) -> Outcome
         search=search,
         warnings=() if search is None or setup.search is None else _warnings(search, setup.search),
     )
+    claims = tuple(judge_coverage(claim, result) for claim in setup.claims)
+    result = dataclasses.replace(result, claims=claims)
     return Outcome(result=result, summary=_summary(simulations)._replace(warnings=result.warnings))
 
 
@@ -82,7 +87,13 @@ def _simulate(walker: Walker, setup: CoverageSetup) -> Coverage:
 def _warnings(search: WalkerSearch, task: SearchTask) -> tuple[str, ...]:
     """What the search leaves open."""
     found = []
-    if search.best is None:
+    if search.candidates.total.size == 0:
+        found.append(
+            f"Nothing was searched: by the time that one satellite sees a place, fewer than "
+            f"{search.least_total} satellites cannot keep the band in view, and the range ends at "
+            f"{task.totals[-1]}; search from {search.least_total} on, or allow wider incidences."
+        )
+    elif search.best is None:
         found.append(
             f"No pattern of up to {task.totals[-1]} satellites keeps the whole band in view; "
             "allow more satellites or planes, other inclinations, or wider incidences."

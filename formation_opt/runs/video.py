@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 
 import numpy as np
@@ -10,6 +11,7 @@ from numpy.typing import NDArray
 from configs import VideoStudy
 from configs.staring import VideoSetup
 from insar.observe.agile.video import video
+from insar.observe.agile.video_claims import judge_video
 from insar.observe.agile.video_results import VideoResult
 from reports.agile_words import staring_reason
 
@@ -18,7 +20,7 @@ from .shown import agility, largest_degrees, moment
 
 
 def run(study: VideoStudy, setup: VideoSetup, options: Options) -> Outcome:
-    """Compute the attitude, the frames and the footprints of a study.
+    """Compute attitude, frames and footprints of a study, and judge its claims.
 
     Parameters
     ----------
@@ -27,7 +29,12 @@ def run(study: VideoStudy, setup: VideoSetup, options: Options) -> Outcome:
     options : of the command line; nothing here is random.
     """
     result = video(setup.request, setup.samples, setup.footprints)
-    return Outcome(result=result, summary=_summary(result), orbit=setup.orbit)
+    claims = tuple(judge_video(claim, result) for claim in setup.claims)
+    return Outcome(
+        result=dataclasses.replace(result, claims=claims),
+        summary=_summary(result),
+        orbit=setup.orbit,
+    )
 
 
 def _summary(result: VideoResult) -> Summary:

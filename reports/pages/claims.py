@@ -37,7 +37,7 @@ def claims_section(claims: Sequence[Claim], inputs: str, *, digits: int = 3) -> 
     frame["possible"] = [_possible(claim, digits) for claim in claims]
     frame["agrees"] = [_agreeing(claim) for claim in claims]
     frame["note"] = [_why(claim) for claim in claims]
-    frame["verdict"] = [f"{_SYMBOLS[claim.verdict]} {claim.verdict.value}" for claim in claims]
+    frame["verdict"] = [f"{_mark(claim)} {claim.verdict.value}" for claim in claims]
     return Section(
         "claims",
         f"Printed figures and what the {inputs} give",
@@ -60,6 +60,11 @@ def claims_section(claims: Sequence[Claim], inputs: str, *, digits: int = 3) -> 
             ),
         ),
     )
+
+
+def _mark(claim: Claim) -> str:
+    """Symbol of the verdict; a figure that holds by construction gets no tick."""
+    return "∘" if claim.fitted and claim.verdict is Verdict.HOLDS else _SYMBOLS[claim.verdict]
 
 
 def _agreeing(claim: Claim) -> str:
@@ -91,8 +96,9 @@ def _possible(claim: Claim, digits: int) -> str:
 
 def _why(claim: Claim) -> str:
     """The note of the study; that there is none where one is missed."""
+    fitted = "By construction: inputs were inferred from it." if claim.fitted else ""
     if claim.note or claim.verdict is Verdict.HOLDS:
-        return claim.note
+        return " ".join(part for part in (fitted, claim.note) if part)
     if claim.verdict is Verdict.OPEN:
         return "What is not published decides."
     return "The study gives no reason."
@@ -124,4 +130,20 @@ def claims_text(claims: Sequence[Claim], inputs: str) -> tuple[Text, ...]:
         tail += f", {counts[Verdict.OPEN]} {verb} on what is not published"
     if counts[Verdict.UNKNOWN]:
         tail += f", {counts[Verdict.UNKNOWN]} cannot be computed from them"
-    return ((Strong(text), f"{tail}: the next section gives each with its reason."),)
+    return (
+        (Strong(text), f"{tail}: the next section gives each with its reason.{_circular(claims)}"),
+    )
+
+
+def _circular(claims: Sequence[Claim]) -> str:
+    """That figures from which the inputs were taken confirm nothing."""
+    fitted = sum(claim.fitted and claim.verdict is Verdict.HOLDS for claim in claims)
+    if not fitted:
+        return ""
+    which = "All of those hold" if fitted == len(claims) else f"{fitted} of them hold"
+    if fitted == 1:
+        which = "One of them holds"
+    return (
+        f" {which} by construction: inputs were inferred from what is printed. That it can be "
+        "met is all that this shows, not that the inputs are the source's."
+    )

@@ -17,6 +17,7 @@ from ..study import Provenance, StudyInfo
 from ..tables_coverage import coverage_tables
 from ..wording import counted, fixed, latitude_text, plain, sentences
 from . import sections
+from .claims import claims_section
 from .closing import closing_sections, facts
 from .coverage_methods import coverage_methods
 from .coverage_sections import search_section, simulation_section, sizing_section
@@ -31,8 +32,13 @@ def document(result: CoverageResult, study: StudyInfo, provenance: Provenance) -
         Section(
             "result",
             "Result",
-            (*coverage_verdict(result), *sections.warning_blocks(sentences(result.warnings))),
+            (
+                *coverage_verdict(result),
+                *sections.warning_blocks(sentences(result.warnings)),
+                *sections.inferred_blocks(study),
+            ),
         ),
+        claims_section(result.claims, "inputs of this study", digits=4),
         sizing_section(result.shortfall),
         simulation_section(result.simulations),
         search_section(result.search),

@@ -172,6 +172,13 @@ def search_section(search: WalkerSearch | None) -> Section | None:
         return None
     found = search.candidates
     undecided = int(np.count_nonzero(found.verdict == Verdict.UNDECIDED))
+    if not found.total.size:
+        why = (
+            f"No pattern was searched. Fewer than {search.least_total} satellites cannot keep the "
+            "band in view, since one satellite sees a place for too short a part of the time, and "
+            "the range of the study has no such number."
+        )
+        return Section("search", "The smallest constellation", (Paragraph(why),))
     blocks: list[Block] = [
         Paragraph(
             f"{counted(int(found.total.size), 'pattern')} were searched, up to the first number of "
@@ -185,8 +192,7 @@ def search_section(search: WalkerSearch | None) -> Section | None:
             )
         )
     ]
-    if found.total.size:
-        blocks += [_search_figure(search), _search_table(search)]
+    blocks += [_search_figure(search), _search_table(search)]
     return Section("search", "The smallest constellation", tuple(blocks))
 
 

@@ -11,6 +11,7 @@ from ..agile_words import walker_name
 from ..document import Block, Callout, Metric, Metrics, Status, Strong, Text
 from ..tables_coverage import DAY, MINUTE
 from ..wording import counted, fixed, joined, latitude_text, plain, quantity, significant
+from .claims import claims_text
 
 _ALL = 1.0 - 1e-12
 """Share of time from which a place counts as seen all the time."""
@@ -44,6 +45,7 @@ def coverage_verdict(result: CoverageResult) -> tuple[Block, ...]:
     if result.search is not None:
         paragraphs.append(_search(result.search))
     paragraphs += _simulations(result.simulations, result.search)
+    paragraphs += claims_text(result.claims, "inputs of this study")
     status, title = _title(result)
     blocks: list[Block] = [Callout(status, title, tuple(paragraphs))]
     items = _metrics(result)
@@ -56,6 +58,11 @@ def _title(result: CoverageResult) -> tuple[Status, str]:
     if result.search is not None and result.search.best is not None:
         count = counted(result.search.best.total, "satellite")
         return Status.GOOD, f"{count} keep {_band(result.search)} in view at all times"
+    if result.search is not None and result.search.candidates.total.size == 0:
+        return (
+            Status.BAD,
+            "The range of the search is too small for any pattern to do",
+        )
     if result.search is not None:
         return Status.BAD, "No pattern that was searched keeps the band in view at all times"
     best = max((float(one.cover.min()) for one in result.simulations), default=0.0)
@@ -139,6 +146,8 @@ def _search(search: WalkerSearch) -> Text:
         f"By the time that one satellite sees a target, fewer than {search.least_total} satellites "
         "cannot do."
     )
+    if search.candidates.total.size == 0:
+        return f"No pattern was searched, for the range has none that could do. {bound}"
     if search.best is None:
         return f"No continuous cover with any of {tried} searched. {bound}"
     return (

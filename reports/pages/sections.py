@@ -71,6 +71,23 @@ def document(study: StudyInfo, provenance: Provenance, *parts: Section | None) -
     )
 
 
+def inferred_blocks(study: StudyInfo) -> tuple[Block, ...]:
+    """Which inputs are not the source's, beside the result that rests on them."""
+    if not study.inferred:
+        return ()
+    named = "; ".join(f"{key} = {value}" for key, value in study.inferred)
+    return (
+        Callout(
+            Status.NOTE,
+            "Inferred inputs",
+            (
+                "The source does not print these; they were chosen or solved for here, others may "
+                f"do as well, and the result rests on them: {named}.",
+            ),
+        ),
+    )
+
+
 def warning_blocks(warnings: Sequence[str]) -> tuple[Block, ...]:
     """What a reader must know before using the result, in one callout."""
     if not warnings:

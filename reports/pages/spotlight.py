@@ -37,7 +37,11 @@ def document(result: SpotlightResult, study: StudyInfo, provenance: Provenance) 
         Section(
             "result",
             "Result",
-            (*spotlight_verdict(result), *sections.warning_blocks(sentences(result.warnings))),
+            (
+                *spotlight_verdict(result),
+                *sections.warning_blocks(sentences(result.warnings)),
+                *sections.inferred_blocks(study),
+            ),
         ),
         claims_section(result.claims, "inputs of this study", digits=5),
         pass_section(result),

@@ -16,6 +16,7 @@ from ..study import Provenance, StudyInfo
 from ..tables_video import video_tables
 from ..wording import plain, sentences
 from . import sections
+from .claims import claims_section
 from .closing import closing_sections, facts
 from .spotlight import agility_rows, place_text, searched_rows
 from .turning import rates_section
@@ -33,8 +34,13 @@ def document(result: VideoResult, study: StudyInfo, provenance: Provenance) -> D
         Section(
             "result",
             "Result",
-            (*video_verdict(result), *sections.warning_blocks(sentences(result.warnings))),
+            (
+                *video_verdict(result),
+                *sections.warning_blocks(sentences(result.warnings)),
+                *sections.inferred_blocks(study),
+            ),
         ),
+        claims_section(result.claims, "inputs of this study", digits=4),
         footprint_section(result),
         frames_section(result),
         yaw_section(result),

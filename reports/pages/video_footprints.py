@@ -9,7 +9,7 @@ import numpy as np
 
 from insar.observe.agile.video_results import VideoResult
 
-from ..agile_words import yaw_law_name
+from ..agile_words import common_reason, yaw_law_name
 from ..document import Block, Column, Figure, Paragraph, Section, Status, Table
 from ..figures.footprints import footprints_map
 from ..figures.footprints_moving import moving_footprints
@@ -33,19 +33,22 @@ _ROUNDING = 1e-6
 def footprint_section(result: VideoResult) -> Section:
     """Outlines on a map, and moving."""
     prints = result.footprints
-    known = prints.area[np.isfinite(prints.area)]
-    missing = prints.area.size - known.size
+    areas = prints.area[np.isfinite(prints.area)]
+    missing = prints.area.size - areas.size
     area = (
-        f"from {significant(float(known.min()) / 1e6)} to {significant(float(known.max()) / 1e6)} "
+        f"from {significant(float(areas.min()) / 1e6)} to {significant(float(areas.max()) / 1e6)} "
         "km²"
-        if known.size
+        if areas.size
         else "not known"
     )
-    common = (
-        f"{significant(prints.common_area / 1e6)} km² are seen all the time"
-        if prints.common_area > 0.0
-        else "nothing is seen all the time"
-    )
+    if np.isfinite(prints.common_area):
+        common = (
+            f"{significant(prints.common_area / 1e6)} km² are seen all the time"
+            if prints.common_area > 0.0
+            else "nothing is seen all the time"
+        )
+    else:
+        common = f"what is seen all the time is not known, since {common_reason(result)}"
     return Section(
         "footprints",
         "Footprints",

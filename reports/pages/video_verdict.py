@@ -8,7 +8,7 @@ import numpy as np
 
 from insar.observe.agile.video_results import LawSummary, VideoResult
 
-from ..agile_words import heading_name, side_name, staring_reason, yaw_law_name
+from ..agile_words import common_reason, heading_name, side_name, staring_reason, yaw_law_name
 from ..document import Block, Callout, Metric, Metrics, Status, Strong, Text
 from ..reading_agile import exceeds, is_limited
 from ..tables_steering import largest, least
@@ -25,6 +25,7 @@ from ..wording import (
     quantity,
     significant,
 )
+from .claims import claims_text
 from .turning import agility_text, demand_metrics, exceeded_share
 
 _ROUNDING = 1e-6
@@ -39,6 +40,7 @@ def video_verdict(result: VideoResult) -> tuple[Block, ...]:
     reason = staring_reason(result.profile.outcome)
     if reason is not None:
         paragraphs.append((Strong("Not pointed for part of the film: "), f"{reason}."))
+    paragraphs += claims_text(result.claims, "inputs of this study")
     return Callout(status, title, tuple(paragraphs)), _metrics(result)
 
 
@@ -114,6 +116,15 @@ def _turns(result: VideoResult) -> Text:
         f"{_degrees(law.azimuth_trace)}, its range trace by {_degrees(law.range_trace)} and its "
         f"major axis by {_degrees(law.major_axis)}: no law holds all three, for the footprint "
         f"shears by up to {_degrees(law.shear)}. ",
+        *_common(law, common_reason(result)),
+    )
+
+
+def _common(law: LawSummary, why: str | None) -> tuple[str, ...]:
+    """What is seen all the time, or why that is not known."""
+    if not math.isfinite(law.common_area):
+        return (f"What is seen all the time is not known: {why}.",)
+    return (
         Strong(_capital(_share(law.common_area))),
         " of the footprint at the reference time is seen all the time"
         + ("." if law.solved == 1.0 else " that the beam is held."),
@@ -133,7 +144,7 @@ def _capital(text: str) -> str:
 
 def _share(share: float) -> str:
     if not math.isfinite(share):
-        return MISSING
+        return "not known how much is"
     return "nothing" if share == 0.0 else percent(share)
 
 

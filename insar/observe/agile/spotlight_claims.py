@@ -28,6 +28,8 @@ class SpotlightQuantity(StrEnum):
     LARGEST_ACCELERATION = "largest_acceleration"
     """Magnitude, against inertial space."""
     IMAGING_TIME = "imaging_time"
+    FIRST_ORDER_TIME = "first_order_time"
+    """Aperture time by the rate at zero Doppler."""
     GROUND_SPEED = "ground_speed"
     BANDWIDTH = "bandwidth"
     RESOLUTION = "resolution"
@@ -82,6 +84,7 @@ _MEASURES: dict[SpotlightQuantity, Callable[[SpotlightResult], float]] = {
         result.profile.acceleration_inertial
     ),
     SpotlightQuantity.IMAGING_TIME: lambda result: result.plan.imaging_time,
+    SpotlightQuantity.FIRST_ORDER_TIME: lambda result: result.plan.first_order_time,
     SpotlightQuantity.GROUND_SPEED: lambda result: result.plan.ground_speed,
     SpotlightQuantity.BANDWIDTH: lambda result: result.history.bandwidth,
     SpotlightQuantity.RESOLUTION: lambda result: result.history.resolution,

@@ -80,7 +80,8 @@ def staring_scene(
     Raises
     ------
     ValueError
-        If the place does not see the satellite in every segment.
+        If the place does not see the satellite in every segment, or the slope lies in layover or
+        shadow there.
     """
     if segments < 1:
         raise ValueError(f"segments = {segments!r} must be at least 1")
@@ -93,6 +94,7 @@ def staring_scene(
             f"the place sees the satellite in {np.count_nonzero(look.visible)} of {segments} "
             f"segments only, over {duration:.6g} s; take a shorter time"
         )
+    _check_slope(slope, look.incidence)
     scene = Scene(
         times=times - times[0],
         slant_range=look.slant_range,
@@ -112,3 +114,15 @@ def staring_scene(
         plan=plan,
         duration=2.0 * half,
     )
+
+
+def _check_slope(slope: float, incidence: Array) -> None:
+    """Refuse a slope [rad] that faces the radar steeper than the line of sight, or turns away."""
+    least, most = float(np.min(incidence)), float(np.max(incidence))
+    if not most - 0.5 * np.pi < slope < least:
+        low, high = np.degrees([most - 0.5 * np.pi, least])
+        raise ValueError(
+            f"slope = {np.degrees(slope):g}°: lies in layover or shadow, where no phase is "
+            f"measured: at incidences of {np.degrees(least):.2f}° to {np.degrees(most):.2f}° it "
+            f"must be between {low:.2f}° and {high:.2f}°; choose a gentler slope, or 0"
+        )

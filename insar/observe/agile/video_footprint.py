@@ -156,7 +156,9 @@ def footprints(
     place = to_geodetic(points)
     local = rotate(horizontal_axes(target), points - target)
     common = _common(local)
-    outline = _onto_surface(common, target, height)
+    known = common is not None
+    shared = np.empty((0, 2)) if common is None else common
+    outline = _onto_surface(shared, target, height)
     return Footprints(
         times=times,
         latitude=place.latitude,
@@ -164,7 +166,7 @@ def footprints(
         area=_enclosed(local),
         common_latitude=outline[0],
         common_longitude=outline[1],
-        common_area=float(_enclosed(common)) if len(common) else 0.0,
+        common_area=float(_enclosed(shared)) if known else np.nan,
     )
 
 
@@ -203,15 +205,16 @@ def _enclosed(outline: Array) -> Array:
     return area
 
 
-def _common(outlines: Array) -> Array:
+def _common(outlines: Array) -> Array | None:
     """Outline of what all outlines have in common, (K, V, 2) to (W, 2); empty for nothing.
 
-    Outlines that are missing don't count; one that goes beyond the horizon has none with another.
+    Outlines that are missing don't count. None where it is not known: there is no outline, or one
+    goes beyond the horizon and has no corners there.
     """
     finite = np.isfinite(outlines[..., 0])
     drawn = outlines[np.any(finite, axis=-1)]
     if len(drawn) == 0 or not np.all(np.isfinite(drawn)):
-        return np.empty((0, 2))
+        return None
     shared = shapely.intersection_all(shapely.polygons(drawn))
     if shared.is_empty or shared.geom_type != "Polygon":
         return np.empty((0, 2))

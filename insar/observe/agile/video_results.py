@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from formation import Trajectory
 
+from ...claims import Claim
 from ...scene import LookSide
 from ..scenes.passes import Direction
 from .agility import Agility
@@ -233,8 +234,10 @@ class Footprints(NamedTuple):
     latitude, longitude : (K, V) — corners of the outlines, open, counterclockwise in the antenna
         from its X axis [rad]; NaN beyond the horizon.
     area : (K,) — about the aim point's vertical, seen from above [m²].
-    common_latitude, common_longitude : (W,) — outline of what all of them see; empty for nothing.
-    common_area : scalar — of it [m²].
+    common_latitude, common_longitude : (W,) — outline of what all of them see; empty for nothing,
+        and where it is not known.
+    common_area : scalar — of it; NaN where it is not known: an outline reaches past the horizon, or
+        there is none at all [m²].
     """
 
     times: Array
@@ -273,7 +276,8 @@ class LawSummary(NamedTuple):
     azimuth_trace, range_trace, major_axis, shear : scalars — largest magnitudes [rad].
     yaw : scalar — largest magnitude [rad].
     rate_orbit, rate_inertial : scalars — largest magnitudes [rad/s].
-    common_area : scalar — that all footprints see, by the area of the one at the reference time.
+    common_area : scalar — that all footprints see, by the area of the one at the reference time;
+        NaN where it is not known.
     solved : scalar — share of the samples with a solution.
     """
 
@@ -304,6 +308,7 @@ class VideoResult:
     laws : what every yaw law leaves, in the order of `YawLaw`.
     orbit_misfit : scalar — of the smooth orbit from which all is computed [m].
     warnings : what a user should know.
+    claims : printed figures and their verdicts; empty unless a study adds them.
     """
 
     request: VideoRequest
@@ -317,3 +322,4 @@ class VideoResult:
     laws: tuple[LawSummary, ...]
     orbit_misfit: float
     warnings: tuple[str, ...]
+    claims: tuple[Claim, ...] = ()

@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ...claims import Claim
 from .walker import Visibility, Walker
 
 Array = NDArray[np.float64]
@@ -226,9 +227,11 @@ class CoverageResult:
     simulations : of constellations, over latitude and longitude.
     search : for the smallest pattern; None if the study asks for none.
     warnings : what a user should know.
+    claims : printed figures and their verdicts; empty unless a study adds them.
     """
 
     shortfall: SizingShortfall | None
     simulations: tuple[Coverage, ...]
     search: WalkerSearch | None
     warnings: tuple[str, ...]
+    claims: tuple[Claim, ...] = ()
