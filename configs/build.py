@@ -19,6 +19,7 @@ from formation import (
 from insar.observe import Observation
 from insar.observe.agile.staring import StaringScene
 from optimize import (
+    CertificateSettings,
     DemRequest,
     DesignSpace,
     FormationClaim,
@@ -90,6 +91,7 @@ class OptimizeSetup(NamedTuple):
     initial_design : (D,) — the formation given, if it lies in the searched box; else None.
     compare : formations to show beside the result.
     refutation : how they are simulated; None if they are not.
+    certificate : how the result is proved; None if it is not.
     critical_baseline : the smallest over the segments [m].
     dem : what is asked of the elevation model.
     orbit : the reference orbit.
@@ -103,6 +105,7 @@ class OptimizeSetup(NamedTuple):
     initial_design: Array | None
     compare: tuple[NamedStates, ...]
     refutation: RefutationSettings | None
+    certificate: CertificateSettings | None
     critical_baseline: float
     dem: DemRequest
     orbit: Orbit
@@ -186,6 +189,9 @@ def build_optimize(study: OptimizeStudy) -> OptimizeSetup:
         initial_design=design,
         compare=_flown(study.compare, names, problem, family=formation.family, sign=sign),
         refutation=build_refutation(study, problem),
+        certificate=None
+        if study.certificate is None
+        else CertificateSettings(max_boxes=study.certificate.max_boxes),
         critical_baseline=critical,
         dem=dem,
         orbit=view.orbit,

@@ -11,6 +11,7 @@ from formation import Orbit
 from .agile_studies import CoverageStudy, SpotlightStudy, VideoStudy
 from .base import Whole
 from .blocks import ErrorsBlock, RadarBlock
+from .certificate import CertificateBlock
 from .checks import (
     check_images,
     check_labels,
@@ -115,6 +116,10 @@ class OptimizeStudy(FormationStudy):
         default=SearchLimitsBlock(), description="Limits that the search keeps."
     )
     search: SearchBlock = Field(default=SearchBlock(), description="How it is searched.")
+    certificate: CertificateBlock | None = Field(
+        default=CertificateBlock(),
+        description="Proof of how far from the best possible the result is; null: none.",
+    )
 
     @model_validator(mode="after")
     def _check(self) -> Self:

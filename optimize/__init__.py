@@ -10,6 +10,7 @@ from .assessment import (
     assess,
     assess_placed,
 )
+from .certificate import Certificate, CertificateSettings, certify
 from .claims import FormationClaim, FormationQuantity, OpenNumber, Over, measure, possible
 from .constraints import Bound, ConstraintReport, Constraints, FailureLimit, Limit
 from .dem_verdict import DemRequest, DemVerdict, FailedDemand, dem_verdict, looks_for
@@ -26,6 +27,8 @@ from .structured import structured_designs
 __all__ = [
     "Assessment",
     "Bound",
+    "Certificate",
+    "CertificateSettings",
     "ConstraintReport",
     "Constraints",
     "DemRequest",
@@ -56,6 +59,7 @@ __all__ = [
     "assess",
     "assess_acquisitions",
     "assess_placed",
+    "certify",
     "dem_verdict",
     "findings",
     "looks_for",

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from insar import Claim
 
 from .assessment import Assessment
+from .certificate import Certificate
 from .claims import OpenNumber
 from .dem_verdict import DemVerdict
 from .problem import Problem
@@ -28,6 +29,8 @@ class OptimizeResult:
     notices : why the result is not what was asked for: nothing feasible, or interrupted.
     warnings : what a reader must know before using the result.
     dem : the elevation model of the formation, and what limits it.
+    certificate : how far from the best possible it is at most; None where it was not proved.
+    certificate_reason : why it was not; empty where it was.
     """
 
     problem: Problem
@@ -39,6 +42,8 @@ class OptimizeResult:
     notices: tuple[str, ...]
     warnings: tuple[str, ...]
     dem: DemVerdict | None = None
+    certificate: Certificate | None = None
+    certificate_reason: str = "it was not tried"
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -9,6 +9,7 @@ import numpy as np
 
 from optimize import Assessment, EvaluateResult, ImagePair, OptimizeResult, Problem
 
+from .json_certificate import certificate_json
 from .json_claims import claims_json
 from .json_dem import dem_json
 from .json_numbers import Json, finite, finite_list
@@ -102,7 +103,7 @@ def optimize_json(result: OptimizeResult) -> Json:
             for record in search.history
         ],
         "dem": dem_json(result.dem),
-        "certificate": None,
+        "certificate": certificate_json(result),
         "warnings": [*result.notices, *result.warnings],
     }
 

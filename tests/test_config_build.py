@@ -312,7 +312,6 @@ def test_the_shipped_examples_are_these():
         "liang2018_video",
         "lutan_1",
         "meng2003_yaw",
-        "simulate_jacksboro",
         "srtm_x",
         "tandem_l",
         "tandem_x",

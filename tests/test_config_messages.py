@@ -65,9 +65,9 @@ IN_THREE_SAT = {
     ),
     "key in the wrong block, two levels deep": (
         "  looks: 16",
-        "  min_probability: 0.9 #",
-        "min_probability: 0.9 ",
-        "radar.min_probability is not a known key; it belongs under 'constraints.unwrapping';",
+        "  prior_height_std_m: 4",
+        "prior_height_std_m: 4",
+        "radar.prior_height_std_m is not a known key; it belongs under 'constraints.unwrapping';",
     ),
     "meters for kilometers": (
         "altitude_km: 514 ",
@@ -198,7 +198,7 @@ IN_THREE_SAT = {
         "kind: optimise",
         "optimise",
         "kind = 'optimise' must be one of optimize, evaluate, steering, spotlight, video, "
-        "coverage, simulate; did you mean 'optimize'?",
+        "coverage; did you mean 'optimize'?",
     ),
     "name that is no file name": (
         "name: three_sat ",

@@ -332,7 +332,9 @@ def test_json_keeps_its_contract(result: OptimizeResult, tmp_path: Path) -> None
     assert math.sqrt(squares) == pytest.approx(best["height_error"]["region_rms_m"], rel=1e-12)
     assert best["pairs"][1]["images"] == ["1→1", "1→3"]
     assert best["pairs"][1]["satellites"] == ["1", "3"]
-    assert document["certificate"] is None
+    proof = document["certificate"]
+    assert proof["lower_bound_m"] is proof["gap"] is None
+    assert proof["reason"] == "it was not tried"
     assert document["warnings"] == ["Stopped early.", "Check the prior DEM."]
 
 

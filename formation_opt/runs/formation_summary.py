@@ -12,7 +12,7 @@ from insar.observe import Observation
 from insar.observe.agile.staring import StaringScene
 from insar.observe.scenes.cautions import cautions, orbit_cautions
 from insar.simulation import Refutation, Verdict
-from optimize import Assessment, DemVerdict
+from optimize import Assessment, Certificate, DemVerdict
 
 from .outcome import Options, Summary
 
@@ -29,6 +29,7 @@ def formation_summary(
     warnings: tuple[str, ...] = (),
     *,
     dem: DemVerdict | None = None,
+    certificate: Certificate | None = None,
 ) -> Summary:
     """Height error, unwrapping and limits of each formation.
 
@@ -37,6 +38,7 @@ def formation_summary(
     shown : the formations, the one that matters last.
     warnings : of the scene.
     dem : the elevation model of the last formation; its judgment is shown where there is one.
+    certificate : what is proved of the last formation.
     """
     rows = [
         (
@@ -64,6 +66,9 @@ def formation_summary(
             (f"{judgment.specification.name} at 90 %", (*elsewhere, _judged(judgment)))
             for judgment in dem.judgments
         ]
+    if certificate is not None and certificate.strongest is not None:
+        elsewhere = ("",) * (len(shown) - 1)
+        rows.append(("no formation is below, proved", (*elsewhere, _proved(certificate))))
     return Summary(tuple(a.label for a in shown), tuple(rows), warnings)
 
 
@@ -106,6 +111,13 @@ def _useless(shown: Sequence[Assessment]) -> tuple[str, ...]:
         f"the {shown[-1].label} formation measures nothing: simulated heights are wrong by "
         f"{meters(worst.best.value)}, the prior was by {meters(worst.prior_height_std)}.",
     )
+
+
+def _proved(certificate: Certificate) -> str:
+    bound = f"{certificate.lower_bound:.4f} m"
+    if not np.isfinite(certificate.gap):
+        return bound
+    return f"{bound} ({100.0 * certificate.gap:.2g} % less)"
 
 
 def scene_cautions(observation: Observation | StaringScene | None) -> tuple[str, ...]:

@@ -8,8 +8,11 @@ from configs import OptimizeStudy
 from configs.build import OptimizeSetup
 from optimize import (
     Assessment,
+    Certificate,
     OptimizeResult,
+    SearchResult,
     assess,
+    certify,
     dem_verdict,
     findings,
     refuted,
@@ -54,8 +57,11 @@ def run(study: OptimizeStudy, setup: OptimizeSetup, options: Options) -> Outcome
         settings=setup.refutation,
         seed=refutation_seed(study, options, seed),
     )
+    certificate, unproved = _certificate(setup, found)
     notices = []
     blocked = None if best.feasible else _blocking(best)
+    if blocked is not None and certificate is not None:
+        blocked = f"{blocked}{_proof(certificate)}"
     if blocked is not None:
         notices.append(f"No feasible formation was found: {blocked}")
     if found.interrupted:
@@ -75,10 +81,12 @@ def run(study: OptimizeStudy, setup: OptimizeSetup, options: Options) -> Outcome
         notices=tuple(notices),
         warnings=(*cautions, *findings(setup.problem, best)),
         dem=dem,
+        certificate=certificate,
+        certificate_reason=unproved,
     )
     return Outcome(
         result=result,
-        summary=formation_summary((initial, best), cautions, dem=dem),
+        summary=formation_summary((initial, best), cautions, dem=dem, certificate=certificate),
         evaluations=found.evaluations,
         seed=seed,
         orbit=setup.orbit,
@@ -86,6 +94,32 @@ def run(study: OptimizeStudy, setup: OptimizeSetup, options: Options) -> Outcome
         blocked=blocked,
         interrupted=found.interrupted,
     )
+
+
+def _certificate(setup: OptimizeSetup, found: SearchResult) -> tuple[Certificate | None, str]:
+    """What can be proved of the design found, or why nothing was tried."""
+    if setup.certificate is None:
+        return None, "the study asks for no proof"
+    if found.interrupted:
+        return None, "the search was interrupted before its end"
+    certificate = certify(
+        setup.problem, setup.space, design=found.design, settings=setup.certificate
+    )
+    return certificate, ""
+
+
+def _proof(certificate: Certificate) -> str:
+    """That nothing is feasible, and what would help, where it is proved."""
+    blocked = certificate.infeasibility
+    if blocked is None:
+        return ""
+    helps = [
+        f"{relief.name} {relief.passes_at:.4g} {relief.unit}".rstrip()
+        for relief in blocked.reliefs
+        if np.isfinite(relief.passes_at)
+    ]
+    text = f" Proved: {blocked.statement}"
+    return f"{text} It would pass with: {', or '.join(helps)}." if helps else text
 
 
 def _blocking(best: Assessment) -> str:

@@ -120,10 +120,11 @@ def methods_section(
             Paragraph(
                 f"The search is a genetic algorithm (DEAP {cite(_FORTIN)}) that ranks by "
                 f"feasibility first {cite(_DEB)}; its best, mutually distant designs are then "
-                "refined by sequential quadratic programming (SLSQP). This finds good formations, "
-                "but proves none to be the best. Only differences of the satellites' positions "
-                "enter: other formations with the same projected baselines are as good, so another "
-                "seed may return other orbits with the same error."
+                "refined by sequential quadratic programming (SLSQP). How far the "
+                "result is from the best possible is proved apart. Only differences of the "
+                "satellites' positions enter: other formations with the same "
+                "projected baselines are as good, so another seed may return other "
+                "orbits with the same error."
             )
         )
     return Section("methods", "How it was computed", (*blocks, References(tuple(cite.works))))

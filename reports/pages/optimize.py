@@ -17,6 +17,7 @@ from ..study import Provenance, StudyInfo
 from ..tables import formation_frame, height_error_frame
 from ..wording import counted, meters
 from . import sections
+from .certificate import certificate_section
 from .closing import closing_sections, formation_setting
 from .dem import dem_section, limits_section
 from .interferometry import pairs_section, unwrapping_section
@@ -48,6 +49,7 @@ def document(result: OptimizeResult, study: StudyInfo, provenance: Provenance) -
         sections.formation_section(problem, [best, initial]),
         sections.height_error_section(problem, [initial, best, *others]),
         _convergence_section(result),
+        certificate_section(result),
         pairs_section(problem, result.critical_baseline, [result.best, result.initial]),
         unwrapping_section(problem, [initial, best, *others], ladder=result.best),
         refutation_section(problem, result.best, (result.initial, *result.compare)),

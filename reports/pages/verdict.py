@@ -9,6 +9,7 @@ import numpy as np
 from insar.simulation import Verdict
 from optimize import Assessment, EvaluateResult, OptimizeResult, Problem
 
+from ..certificate_words import verdict_text
 from ..document import Block, Callout, Metric, Metrics, Status, Strong, Text
 from ..reading import (
     active,
@@ -61,12 +62,16 @@ def optimize_verdict(result: OptimizeResult, unseen: int = 0) -> tuple[Block, ..
         )
     if best.feasible:
         paragraphs.append((*_achieved(best, unseen), " ", _against(initial, best)))
+        paragraphs.append(verdict_text(result.certificate, result.certificate_reason))
         status, title = Status.GOOD, _title(best, unseen)
     else:
         paragraphs.append(
             "No formation that keeps every limit was found. Shown is the one that breaks them "
             "least; it is not a solution."
         )
+        proof = None if result.certificate is None else result.certificate.infeasibility
+        if proof is not None:
+            paragraphs.append((Strong("None exists, proven: "), proof.statement))
         status, title = Status.BAD, "No feasible formation"
     paragraphs += _remarks(result.problem, best)
     doubtful = result.search.interrupted or unseen > 0 or _doubtful(result.problem, best)

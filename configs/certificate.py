@@ -1,0 +1,19 @@
+"""The block that says how hard a study tries to prove its result the best."""
+
+from __future__ import annotations
+
+from pydantic import Field
+
+from .base import Block, Whole
+
+
+class CertificateBlock(Block):
+    """A lower bound of the height error that no formation within the limits can beat."""
+
+    max_boxes: Whole = Field(
+        default=400_000,
+        ge=1_000,
+        le=100_000_000,
+        description="Boxes of projected baselines that the branch and bound looks at, for each "
+        "cross-track sign; with more, a bound that has not closed becomes tighter.",
+    )

@@ -1,0 +1,230 @@
+"""How far from the best possible a design is at most, by every bound that applies."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from insar import BaselineDecorrelation, SharedBy
+
+from ..design_space import DesignSpace
+from ..problem import Problem
+from ..projection import plane_radius
+from .infeasible import infeasibility, packing_proof
+from .orders import MAX_ORDERS, order_count, relevant_satellites, satellite_classes
+from .packing import scatter_support
+from .projected import ProjectedBound, projected_bound
+from .reduction import (
+    Reduction,
+    reduction,
+    scatter_of,
+    what_is_left_out,
+    why_not_reduced,
+)
+from .result import Certificate, Infeasibility, LowerBound, Method
+from .semidefinite import SolverError, best_scatter
+
+Array = NDArray[np.float64]
+
+_MAX_GAPS = 4
+"""Gaps between satellites up to which a branch and bound is tried."""
+
+_ROUNDING = 1e-9
+"""Part by which a bound is lowered, for the rounding of its arithmetic."""
+
+_CLOSE = 2e-6
+"""Distance of the squared errors at which a tangent at the design needs no second."""
+
+
+class CertificateSettings(NamedTuple):
+    """Settings of `certify`.
+
+    Attributes
+    ----------
+    max_boxes : of the branch and bound, for each sign of the cross-track motion; it gives a looser
+        bound when they are used up. A number of boxes and not of seconds, so that a bound does not
+        depend on the machine.
+    tolerance : relative distance of bound and best at which the branch and bound is done.
+    """
+
+    max_boxes: int = 400_000
+    tolerance: float = 5e-4
+
+
+def certify(
+    problem: Problem,
+    space: DesignSpace,
+    *,
+    design: Array,
+    settings: CertificateSettings = CertificateSettings(),  # noqa: B008 - immutable
+) -> Certificate:
+    """Bound the region height error from below over all designs within the limits.
+
+    Parameters
+    ----------
+    problem : what is minimized, and within which limits.
+    space : the designs.
+    design : (D,) — the design to compare with; it also guides the proof, and may be infeasible.
+    settings : of the proof.
+
+    Returns
+    -------
+    Certificate — its lower bound holds whatever the design: a poor one only makes it looser.
+    """
+    evaluation = problem.evaluate(space.states(design[None]))
+    feasible = bool(evaluation.feasible[0])
+    objective = float(evaluation.objectives[0]) if feasible else math.inf
+    z0, rate, _ = space.decode(design)
+    points = np.stack([z0, rate / space.mean_motion], axis=-1)
+    signs = tuple(dict.fromkeys(space.signs))
+    bounds = [*_convex_bounds(problem, space, signs, points)]
+    trees, reason = _trees(problem, space, signs, points if feasible else None, settings)
+    value = min((tree.value for tree in trees), default=math.nan)
+    blocked: Infeasibility | None = None
+    if trees and math.isinf(value):
+        blocked = infeasibility(problem, space, trees, settings.max_boxes)
+        value, reason = math.nan, "no formation is feasible"
+    elif not feasible:
+        blocked = packing_proof(problem, space)
+    bounds.append(LowerBound(Method.BRANCH_AND_BOUND, value, reason))
+    leading = min(trees, key=lambda tree: tree.value) if trees else None
+    return Certificate(
+        objective=objective,
+        bounds=tuple(bounds),
+        assumptions=_assumptions(problem, bool(trees)),
+        convergence=None if leading is None else leading.convergence,
+        boxes=sum(tree.boxes for tree in trees),
+        infeasibility=blocked,
+    )
+
+
+def _trees(
+    problem: Problem,
+    space: DesignSpace,
+    signs: tuple[int, ...],
+    points: Array | None,
+    settings: CertificateSettings,
+) -> tuple[list[ProjectedBound], str]:
+    """A branch and bound for each sign, or why there is none."""
+    radar, errors = problem.radar, problem.errors
+    gaps = len(relevant_satellites(radar)) - 1
+    if gaps > _MAX_GAPS:
+        return [], f"{gaps + 1} satellites are too many to exhaust their baselines"
+    if order_count(satellite_classes(radar, errors)) > MAX_ORDERS:
+        return [], "the satellites differ, and there are too many orders of them"
+    trees = []
+    for sign in signs:
+        tree = projected_bound(
+            problem,
+            space,
+            sign=sign,
+            start=points,
+            tolerance=settings.tolerance,
+            max_boxes=settings.max_boxes,
+        )
+        trees.append(tree)
+    return trees, ""
+
+
+def _convex_bounds(
+    problem: Problem, space: DesignSpace, signs: tuple[int, ...], points: Array
+) -> list[LowerBound]:
+    """The bounds of the convex reduction: of each method the smallest over the signs."""
+    methods = (Method.CLOSED_FORM, Method.SEMIDEFINITE, Method.ONE_SHOT)
+    reason = why_not_reduced(problem)
+    if reason:
+        return [LowerBound(method, math.nan, reason) for method in methods]
+    problems = [reduction(problem, space, sign=sign) for sign in signs]
+    closed = _over_signs(Method.CLOSED_FORM, problems, lambda one: one.closed_form())
+    if what_is_left_out(problem):
+        loose = "only where nothing but radius and separation limits satellites alike"
+        return [closed, *(LowerBound(method, math.nan, loose) for method in methods[1:])]
+    radius = plane_radius(space, max_radius=problem.constraints.max_radius)
+    scatter = scatter_of(points) / radius**2
+    return [
+        closed,
+        _over_signs(Method.SEMIDEFINITE, problems, _semidefinite),
+        _over_signs(Method.ONE_SHOT, problems, lambda one: _one_shot(one, scatter)),
+    ]
+
+
+def _over_signs(
+    method: Method, problems: list[Reduction], bound: Callable[[Reduction], float]
+) -> LowerBound:
+    try:
+        squared = min(bound(problem) for problem in problems)
+    except SolverError as error:
+        return LowerBound(method, math.nan, str(error))
+    if not squared > 0.0:
+        return LowerBound(method, math.nan, "the tangent is too steep to bound anything")
+    return LowerBound(method, math.sqrt(squared) * (1.0 - _ROUNDING))
+
+
+def _semidefinite(problem: Reduction) -> float:
+    return problem.tangent_bound(best_scatter(problem))
+
+
+def _one_shot(problem: Reduction, scatter: Array) -> float:
+    """From the tangent at the design, and at the best scatter for a sign it does not have."""
+    support = scatter_support(
+        problem.count, separation=problem.separation, weight=problem.flatness(scatter)
+    )
+    bound = problem.tangent_bound(scatter, support.upper)
+    if bound >= problem.squared_error(scatter) * (1.0 - _CLOSE):
+        return bound
+    # The design may be far from the best, or made for the other sign: then the tangent at the
+    # program's own optimum, under the cut known by now, serves better.
+    try:
+        other = best_scatter(problem, ((problem.flatness(scatter), support.upper),))
+    except SolverError:
+        return bound
+    support = scatter_support(
+        problem.count, separation=problem.separation, weight=problem.flatness(other)
+    )
+    return max(bound, problem.tangent_bound(other, support.upper))
+
+
+def _assumptions(problem: Problem, exhausted: bool) -> tuple[str, ...]:
+    """What the bounds leave out, each of which makes them looser and never wrong."""
+    notes = []
+    if exhausted:
+        if problem.errors.azimuth.std > 0.0:
+            notes.append(
+                "The branch and bound leaves the azimuth error and the separation out: both can "
+                "only make a formation worse."
+            )
+        else:
+            notes.append(
+                "The branch and bound leaves the separation out: it only takes designs away."
+            )
+        if len(problem.scene) > 1:
+            notes.append(
+                "It gives every segment of the scene its own best formation: no single one does "
+                "better in all of them."
+            )
+        if problem.errors.baseline_decorrelation is BaselineDecorrelation.UNFILTERED:
+            notes.append(
+                "Without filtering the phase information is not monotone in the coherence; it is "
+                "bounded over intervals of it."
+            )
+    if not why_not_reduced(problem):
+        left = what_is_left_out(problem)
+        if left:
+            notes.append(
+                "The bounds from the scatter of the satellites leave out "
+                + ", ".join(left[:-1])
+                + (" and " if len(left) > 1 else "")
+                + left[-1]
+                + "."
+            )
+    by_pair = problem.errors.azimuth
+    if by_pair.std > 0.0 and by_pair.shared_by is SharedBy.PAIR:
+        notes.append(
+            "The study draws the azimuth error anew for every pair, which no bound here counts: "
+            "they are looser for it."
+        )
+    return tuple(notes)
