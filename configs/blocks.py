@@ -7,6 +7,7 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import Discriminator, Field, Tag, model_validator
 
 from .base import Block, Name, Number, wrong
+from .coherence import BeamBlock, CoherenceBlock
 from .systematic import CalibrationBlock, IonosphereBlock, ScaleWord, TroposphereBlock
 
 
@@ -31,7 +32,9 @@ class RadarBlock(Block):
         default=None,
         ge=0.05,
         le=200,
-        description="Resolution along track; ties the looks to the posting of the elevation model.",
+        description="Resolution along track, on the ground: the band that images keep in common "
+        "when they are apart along track, and the looks of a posting; absent: along-track "
+        "separations cost no coherence.",
     )
     looks: Number = Field(
         default=1.0,
@@ -57,12 +60,19 @@ class RadarBlock(Block):
         le=30,
         description="Normalized radar cross-section of the ground; together with nesz_db.",
     )
+    beams: tuple[BeamBlock, ...] | None = Field(
+        default=None,
+        min_length=2,
+        max_length=200,
+        description="Noise and ambiguities over the incidence, interpolated in dB; instead of "
+        "nesz_db.",
+    )
     other_coherence: Number = Field(
         default=1.0,
         gt=0,
         le=1,
-        description="Coherence left by everything but noise and baseline (quantization, "
-        "ambiguities, processing), the same in every pair.",
+        description="Coherence left by what errors.coherence does not name, the same in every "
+        "pair.",
     )
     images: Annotated[
         Annotated[ImagePattern, Tag("word")] | Annotated[ImageList, Tag("list")],
@@ -86,7 +96,21 @@ class RadarBlock(Block):
                 "excludes nesz_db and backscatter_db, which also give the signal-to-noise ratio",
                 "keep snr_db, or the other two",
             )
-        if self.snr_db is None and (self.nesz_db is None or self.backscatter_db is None):
+        if self.beams is not None:
+            if self.snr_db is not None or self.nesz_db is not None:
+                raise wrong(
+                    ("beams",),
+                    "excludes snr_db and nesz_db: it gives the noise itself",
+                    "keep one of them",
+                )
+            for index in range(1, len(self.beams)):
+                if self.beams[index].incidence_deg <= self.beams[index - 1].incidence_deg:
+                    raise wrong(
+                        ("beams", index, "incidence_deg"),
+                        f"does not exceed the one before, {self.beams[index - 1].incidence_deg:g}",
+                        "sort the beams",
+                    )
+        elif self.snr_db is None and self.nesz_db is None:
             raise wrong(
                 (),
                 "lacks the signal-to-noise ratio",
@@ -113,13 +137,6 @@ class RadarBlock(Block):
                 "are two images with one phase center, between the same satellites",
                 "add an image with another transmitter or receiver",
             )
-
-    @property
-    def signal_to_noise_db(self) -> float:
-        """Signal-to-noise ratio of an image, however it was given [dB]."""
-        if self.nesz_db is not None and self.backscatter_db is not None:
-            return self.backscatter_db - self.nesz_db
-        return 0.0 if self.snr_db is None else self.snr_db
 
 
 class ErrorsBlock(Block):
@@ -217,6 +234,10 @@ class ErrorsBlock(Block):
         description="What a baseline costs: filtered (default): looks, by range spectral "
         "filtering; unfiltered: coherence; none: neglected.",
     )
+    coherence: CoherenceBlock | None = Field(
+        default=None,
+        description="Quantization, ambiguities, co-registration, volume, time; absent: neglected.",
+    )
     held_constant: Literal["doppler", "azimuth"] | None = Field(
         default=None,
         description="What a target keeps while its height changes: doppler (default), as in a "
@@ -246,6 +267,14 @@ class ErrorsBlock(Block):
                 ("weighting",),
                 "contradicts the preset li2009, which weighs pairs",
                 "remove it, or remove the preset and write the errors out",
+            )
+        noiseless = self.preset is not None or self.phase_std_deg is not None
+        if self.coherence is not None and noiseless:
+            raise wrong(
+                ("coherence",),
+                "has no effect where the phase noise itself is given (preset li2009, "
+                "phase_std_deg)",
+                "remove it, or what gives the phase noise",
             )
         pairwise = self.preset is not None or self.weighting == "pairs"
         for key in ("position_shared_by", "azimuth_shared_by", "synchronization_shared_by"):

@@ -8,6 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from formation.constants import EARTH_EQUATORIAL_RADIUS
 from insar import (
     BaselineDecorrelation,
     Calibration,
@@ -29,6 +30,7 @@ from insar.atmosphere import TEC_UNIT
 from optimize import Constraints, DemRequest, Problem, RefutationSettings
 
 from .blocks import ErrorsBlock, RadarBlock
+from .coherent import build_coherence, segment_snr
 from .dem_request import build_dem, looks_of
 from .limits import LimitsBlock
 from .observing import View
@@ -65,13 +67,20 @@ def build_problem(
     scene = view.scene
     calibration = _calibration(study.errors.calibration)
     dem = build_dem(study.dem, study.radar, scene, calibration)
-    radar = _radar(study.radar, names, looks=looks_of(study.radar, dem, scene))
+    snr = segment_snr(study.radar, study.scene.backscatter, scene)
+    looks = looks_of(study.radar, dem, scene)
+    radar = _radar(study.radar, names, looks=looks, snr=float(np.median(snr)))
     critical = float(scene_critical_baseline(scene, radar, multiplicity=radar.multiplicity).min())
+    speed = view.orbit.mean_motion * (EARTH_EQUATORIAL_RADIUS + view.orbit.altitude)
+    coherence = build_coherence(
+        study.errors.coherence, study.radar, scene, snr=snr, built=radar, speed=speed
+    )
+    errors = _errors(study.errors, radar, scene)
     problem = Problem(
         mean_motion=view.orbit.mean_motion,
         scene=scene,
         radar=radar,
-        errors=replace(_errors(study.errors, radar, scene), calibration=calibration),
+        errors=replace(errors, calibration=calibration, coherence=coherence),
         constraints=_constraints(limits, critical),
     )
     return problem, critical, dem
@@ -108,11 +117,13 @@ def build_instrument(
     names : name of each satellite.
     scene : where an azimuth error on the ground becomes an angle.
     """
-    built = _radar(radar, names, looks=radar.looks)
-    return built, _errors(errors, built, scene)
+    snr = segment_snr(radar, None, scene)
+    built = _radar(radar, names, looks=radar.looks, snr=float(np.median(snr)))
+    coherence = build_coherence(errors.coherence, radar, scene, snr=snr, built=built, speed=None)
+    return built, replace(_errors(errors, built, scene), coherence=coherence)
 
 
-def _radar(block: RadarBlock, names: Sequence[str], *, looks: float) -> Radar:
+def _radar(block: RadarBlock, names: Sequence[str], *, looks: float, snr: float) -> Radar:
     if isinstance(block.images, tuple):
         images = tuple((names.index(tx), names.index(rx)) for tx, rx in block.images)
     elif block.images == "one_transmitter":
@@ -123,10 +134,11 @@ def _radar(block: RadarBlock, names: Sequence[str], *, looks: float) -> Radar:
     return Radar(
         wavelength=block.wavelength_m,
         slant_range_resolution=block.slant_range_resolution_m,
-        snr=10.0 ** (block.signal_to_noise_db / 10.0),
+        snr=snr,
         looks=looks,
         images=images,
         other_coherence=block.other_coherence,
+        azimuth_resolution=block.azimuth_resolution_m,
     )
 
 

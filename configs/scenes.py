@@ -9,6 +9,7 @@ from pydantic import Field, model_validator
 
 from .agile import SpotlightSceneBlock, VideoSceneBlock
 from .base import Block, Number, Whole, wrong
+from .coherence import BackscatterBlock
 from .messages import KeyPath
 from .observation import ObservationBlock
 
@@ -157,10 +158,16 @@ class SceneBlock(Block):
     video: VideoSceneBlock | None = Field(
         default=None, description="One target, over a film of it; or give another."
     )
+    backscatter: BackscatterBlock | None = Field(
+        default=None,
+        description="Backscatter over the incidence, with radar.nesz_db or radar.beams; beside "
+        "one of the others.",
+    )
 
     @model_validator(mode="after")
     def _check(self) -> Self:
-        given = [key for key in type(self).model_fields if getattr(self, key) is not None]
+        shapes = ("strip", "table", "observation", "spotlight", "video")
+        given = [key for key in shapes if getattr(self, key) is not None]
         if len(given) != 1:
             raise wrong(
                 (),

@@ -49,7 +49,7 @@ IN_THREE_SAT = {
         "snr: 10",
         "radar.snr is not a known key; did you mean 'snr_db'? the keys of radar are wavelength_m, "
         "slant_range_resolution_m, azimuth_resolution_m, looks, snr_db, nesz_db, backscatter_db, "
-        "other_coherence, images, transmitter",
+        "beams, other_coherence, images, transmitter",
     ),
     "misspelt key that is required": (
         "wavelength_m",

@@ -13,6 +13,7 @@ from .noise import (
     snr_coherence,
 )
 from .spectra import common_band, coregistration_coherence, doppler_offset, doppler_shift
+from .tables import at_incidence
 from .temporal import TemporalDecorrelation
 from .volume import (
     AttenuatedVolume,
@@ -33,6 +34,7 @@ __all__ = [
     "UniformVolume",
     "Volume",
     "ambiguity_coherence",
+    "at_incidence",
     "common_band",
     "coregistration_coherence",
     "doppler_offset",
