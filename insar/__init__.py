@@ -32,6 +32,7 @@ from .errors import (
 from .geometry import line_of_sight
 from .height import HeightError, HeightStatus, height_error, height_error_of
 from .image_model import ImageModel, PairNoise, image_model, pair_coherence
+from .pair_budget import PairBudget, pair_budget
 from .phase_information import filtered_information, fisher_information, pair_phase_variance
 from .phase_model import PhaseModel, phase_model
 from .point_to_point import point_to_point_error, point_to_point_factor
@@ -65,6 +66,7 @@ __all__ = [
     "ImageModel",
     "Ionosphere",
     "LookSide",
+    "PairBudget",
     "PairGeometry",
     "PairNoise",
     "PhaseModel",
@@ -96,6 +98,7 @@ __all__ = [
     "line_of_sight",
     "monostatic",
     "one_transmitter",
+    "pair_budget",
     "pair_coherence",
     "pair_critical_baseline",
     "pair_geometry",

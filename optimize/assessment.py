@@ -13,6 +13,7 @@ from insar import (
     HeightError,
     PhaseModel,
     UnwrappingLadder,
+    pair_budget,
     pair_coherence,
     pair_critical_baseline,
     pair_geometry,
@@ -42,6 +43,10 @@ class ImagePair(NamedTuple):
         the pair is not coherent.
     coherence : (S,) — of an interferogram at these baselines.
     looks : (S,) — effective looks, fewer than the radar's after spectral filtering.
+    factors : name → (S,) — of the coherence; see `insar.pair_budget`.
+    common_range, common_azimuth : (S,) — shares of the bands that the images have in common.
+    volume_bias : (S,) — height above the ground that the pair reports of a volume [m]; None
+        without one.
     """
 
     images: tuple[int, int]
@@ -51,6 +56,10 @@ class ImagePair(NamedTuple):
     baseline_over_critical: Array
     coherence: Array
     looks: Array
+    factors: dict[str, Array]
+    common_range: Array
+    common_azimuth: Array
+    volume_bias: Array | None
 
 
 class Rung(NamedTuple):
@@ -258,6 +267,8 @@ def image_pairs(problem: Problem, positions: Array) -> tuple[ImagePair, ...]:
     scene, radar, errors = problem.scene, problem.radar, problem.errors
     geometry = pair_geometry(positions, scene, radar=radar, held_constant=errors.held_constant)
     coherence, looks = pair_coherence(positions, scene, radar=radar, errors=errors)
+    budget = pair_budget(positions, scene, radar=radar, errors=errors)
+    bias = budget.volume_bias
     critical = pair_critical_baseline(scene, radar)
     fraction = np.abs(geometry.perpendicular_baseline) / critical
     return tuple(
@@ -269,6 +280,10 @@ def image_pairs(problem: Problem, positions: Array) -> tuple[ImagePair, ...]:
             baseline_over_critical=fraction[:, k],
             coherence=coherence[:, k],
             looks=looks[:, k],
+            factors={name: values[:, k] for name, values in budget.factors.items()},
+            common_range=budget.common_range[:, k],
+            common_azimuth=budget.common_azimuth[:, k],
+            volume_bias=None if bias is None else bias[:, k],
         )
         for k, (first, second) in enumerate(radar.image_pairs)
     )

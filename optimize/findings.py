@@ -69,7 +69,13 @@ def _of_the_formation(problem: Problem, assessment: Assessment) -> list[str]:
                 f"The height error is not below the prior's {unwrapping.prior_height_std:g} m: the "
                 "formation measures nothing that is not known already."
             )
-    dark = [pair for pair in assessment.pairs if np.any(pair.coherence == 0.0)]
+    apart = [pair for pair in assessment.pairs if np.any(pair.common_azimuth == 0.0)]
+    if apart:
+        notes.append(
+            f"{len(apart)} of {len(assessment.pairs)} pairs are so far apart along track that they "
+            "share no azimuth band: they have no coherence and carry no information of their own."
+        )
+    dark = [pair for pair in assessment.pairs if np.any(pair.common_range == 0.0)]
     if dark:
         notes.append(
             f"{len(dark)} of {len(assessment.pairs)} pairs reach their critical baseline: they "
@@ -97,7 +103,11 @@ def _of_collision(problem: Problem, assessment: Assessment) -> list[str]:
 
 
 def _of_doppler(problem: Problem, assessment: Assessment) -> list[str]:
-    """Along-track baselines long enough to decorrelate, which the model does not count."""
+    """Along-track baselines long enough to decorrelate, where the model does not count it."""
+    radar, lost = problem.radar, problem.errors.baseline_decorrelation
+    counted = radar.azimuth_resolution is not None and lost is not BaselineDecorrelation.NONE
+    if radar.pursuit or counted:
+        return []
     speed = (EARTH_GRAVITATIONAL_PARAMETER * problem.mean_motion) ** (1.0 / 3.0)
     baseline = np.array([np.abs(pair.azimuth_baseline) for pair in assessment.pairs])
     # Seen from two places along track, a target's Doppler frequencies differ by B V/(λ r).
@@ -106,8 +116,12 @@ def _of_doppler(problem: Problem, assessment: Assessment) -> list[str]:
         return []
     return [
         f"Satellites are up to {baseline.max():.0f} m apart along track, which shifts the Doppler "
-        f"spectra of a pair by {shift.max():.0f} Hz: the decorrelation is not counted here, and "
-        "the common Doppler band must be wide enough."
+        f"spectra of a pair by {shift.max():.0f} Hz: the decorrelation is not counted here; give "
+        "radar.azimuth_resolution_m to count it."
+        if lost is not BaselineDecorrelation.NONE
+        else f"Satellites are up to {baseline.max():.0f} m apart along track, which shifts the "
+        f"Doppler spectra of a pair by {shift.max():.0f} Hz: like all decorrelation by baselines, "
+        "it is neglected here."
     ]
 
 

@@ -227,6 +227,10 @@ def _pair_json(problem: Problem, assessment: Assessment, pair: ImagePair) -> Jso
         "height_of_ambiguity_m": finite_list(pair.height_of_ambiguity),
         "coherence": finite_list(pair.coherence),
         "looks": finite_list(pair.looks),
+        "coherence_factors": {name: finite_list(value) for name, value in pair.factors.items()},
+        "common_range_band": finite_list(pair.common_range),
+        "common_azimuth_band": finite_list(pair.common_azimuth),
+        "volume_bias_m": None if pair.volume_bias is None else finite_list(pair.volume_bias),
         "reason": "the perpendicular baseline is zero where the height of ambiguity is null"
         if zero
         else None,

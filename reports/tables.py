@@ -69,7 +69,7 @@ def placed_frame(assessment: Assessment) -> pd.DataFrame:
         [
             {"satellite": name}
             | {
-                key: _span(assessment.scene_positions[:, index, axis])
+                key: span(assessment.scene_positions[:, index, axis])
                 for axis, key in enumerate(_STATE_COLUMNS[:3])
             }
             for index, name in enumerate(assessment.names)
@@ -153,12 +153,12 @@ def pairs_frame(problem: Problem, assessment: Assessment) -> pd.DataFrame:
         [
             {
                 "pair": pair_name(problem, assessment, pair.images),
-                "perpendicular_baseline_m": _span(pair.perpendicular_baseline),
-                "azimuth_baseline_m": _span(pair.azimuth_baseline),
-                "baseline_over_critical": _span(pair.baseline_over_critical),
-                "height_of_ambiguity_m": _span(pair.height_of_ambiguity),
-                "coherence": _span(pair.coherence),
-                "looks": _span(pair.looks),
+                "perpendicular_baseline_m": span(pair.perpendicular_baseline),
+                "azimuth_baseline_m": span(pair.azimuth_baseline),
+                "baseline_over_critical": span(pair.baseline_over_critical),
+                "height_of_ambiguity_m": span(pair.height_of_ambiguity),
+                "coherence": span(pair.coherence),
+                "looks": span(pair.looks),
                 "rung": str(rungs.get(pair.images, "")),
                 "remark": beyond if np.any(pair.baseline_over_critical >= 1.0) else "",
             }
@@ -167,7 +167,8 @@ def pairs_frame(problem: Problem, assessment: Assessment) -> pd.DataFrame:
     )
 
 
-def _span(values: NDArray[np.float64]) -> Span:
+def span(values: NDArray[np.float64]) -> Span:
+    """What varies over the scene: the smallest, the middle and the largest value."""
     return Span(float(values.min()), float(values[values.size // 2]), float(values.max()))
 
 

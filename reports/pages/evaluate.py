@@ -16,6 +16,7 @@ from ..tables import formation_frame, height_error_frame, positions_frame
 from ..tables_steering import claims_frame
 from . import sections
 from .closing import closing_sections, formation_setting
+from .coherence import coherence_section
 from .dem import dem_section, limits_section
 from .interferometry import pairs_section, unwrapping_section
 from .methods import methods_section
@@ -49,6 +50,7 @@ def document(result: EvaluateResult, study: StudyInfo, provenance: Provenance) -
         else placed_section(problem, others[: len(apart)] or [formation]),
         sections.height_error_section(problem, [formation, *others]),
         pairs_section(problem, result.critical_baseline, single),
+        coherence_section(problem, single[0]),
         unwrapping_section(problem, [formation, *others], ladder=result.formation),
         refutation_section(problem, result.formation, (*apart, *result.compare)),
         sections.attribution_section([formation, *others[: min(2, len(apart))]]),

@@ -19,6 +19,7 @@ from ..wording import counted, meters
 from . import sections
 from .certificate import certificate_section
 from .closing import closing_sections, formation_setting
+from .coherence import coherence_section
 from .dem import dem_section, limits_section
 from .interferometry import pairs_section, unwrapping_section
 from .methods import methods_section
@@ -51,6 +52,7 @@ def document(result: OptimizeResult, study: StudyInfo, provenance: Provenance) -
         _convergence_section(result),
         certificate_section(result),
         pairs_section(problem, result.critical_baseline, [result.best, result.initial]),
+        coherence_section(problem, result.best),
         unwrapping_section(problem, [initial, best, *others], ladder=result.best),
         refutation_section(problem, result.best, (result.initial, *result.compare)),
         sections.attribution_section([initial, best]),
