@@ -36,8 +36,8 @@ class TemporalDecorrelation:
 
     References
     ----------
-    Rocca 2007, doi:10.1109/TGRS.2007.898079, has the exponential law; for motion of both kinds at
-    once see Lavalle et al. 2012, doi:10.1109/TGRS.2011.2174367.
+    Rocca 2007, "Modeling interferogram stacks", IEEE Trans. Geosci. Remote Sens. 45(10), has the
+    exponential law.
     """
 
     time_constant: float

@@ -26,7 +26,8 @@ _NAMES = {
     "temporal": "Time",
 }
 
-_thousandths, _hundredths = partial(fixed, decimals=3), partial(fixed, decimals=2)
+_tenths = partial(fixed, decimals=1)
+_hundredths, _thousandths = partial(fixed, decimals=2), partial(fixed, decimals=3)
 
 
 def coherence_section(problem: Problem, assessment: Assessment) -> Section | None:
@@ -43,26 +44,31 @@ def coherence_section(problem: Problem, assessment: Assessment) -> Section | Non
     names = [name for name in _NAMES if _counted(name, pairs)]
     frame = _frame(problem, assessment, pairs, names)
     columns = [Column("pair", "Pair")]
-    columns += [Column(name, _NAMES[name], "", to_span(_thousandths)) for name in names]
-    columns.append(Column("common_range", "Common range band", "", to_span(_thousandths)))
-    counts_azimuth = problem.radar.azimuth_resolution is not None and not problem.radar.pursuit
-    if counts_azimuth:
-        columns.append(Column("common_azimuth", "Common azimuth band", "", to_span(_thousandths)))
+    columns += [Column(key, _NAMES[key], "", to_span(_thousandths)) for key in names]
     columns.append(Column("coherence", "Coherence", "", to_span(_thousandths)))
+    bands = [
+        Column("pair", "Pair"),
+        Column("common_range", "Common range band", "", to_span(_thousandths)),
+    ]
+    if problem.radar.azimuth_resolution is not None and not problem.radar.pursuit:
+        bands.append(Column("common_azimuth", "Common azimuth band", "", to_span(_thousandths)))
+    bands.append(Column("looks", "Looks", "", to_span(_tenths)))
     if pairs[0].volume_bias is not None:
-        columns.append(Column("volume_bias_m", "Volume bias", "m", to_span(_hundredths)))
+        bands.append(Column("volume_bias_m", "Volume bias", "m", to_span(_hundredths)))
+    name = formation_name(assessment.label)
     blocks: list[Block] = [
         Paragraph(_text(problem, names)),
         Table(
             frame,
             tuple(columns),
-            f"Coherence budget of the {formation_name(assessment.label)}: factors of each pair.",
+            f"Coherence budget of the {name}: factors of each pair.",
         ),
+        Table(frame, tuple(bands), f"Shares of the bands that pairs of the {name} keep in common."),
         Figure(
             coherence_figure(problem, assessment, pairs, {name: _NAMES[name] for name in names}),
             "What each factor takes, in the segment that loses most: −ln γ adds up over the "
-            "factors, a loss of 0.1 being 10 % of the coherence. Hatched: the share of the bands "
-            "that two images do not have in common.",
+            "factors, a loss of 0.1 being nearly 10 % of the coherence. Hatched: the share of the "
+            "bands that two images do not have in common.",
             "Stacked bars of the loss of coherence by factor, one for each pair of images.",
         ),
     ]
@@ -84,6 +90,7 @@ def _frame(
             "common_range": span(pair.common_range),
             "common_azimuth": span(pair.common_azimuth),
             "coherence": span(pair.coherence),
+            "looks": span(pair.looks),
         }
         if pair.volume_bias is not None:
             row["volume_bias_m"] = span(pair.volume_bias)
