@@ -5,7 +5,7 @@ amplitude (`image_amplitude`); spectra and scene make what depends on the pair.
 """
 
 from .budget import AnyVolume, CoherenceBudget
-from .images import image_amplitude, image_snr
+from .images import image_amplitude, image_snr, largest_amplitude
 from .noise import (
     ambiguity_coherence,
     quantization_coherence,
@@ -41,6 +41,7 @@ __all__ = [
     "doppler_shift",
     "image_amplitude",
     "image_snr",
+    "largest_amplitude",
     "quantization_coherence",
     "quantization_distortion",
     "snr_coherence",

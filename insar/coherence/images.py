@@ -49,6 +49,22 @@ def image_amplitude(scene: Scene, *, radar: Radar, errors: ErrorBudget) -> Array
     )
 
 
+def largest_amplitude(*, radar: Radar, errors: ErrorBudget) -> Array:
+    """Largest amplitude γ_i of each image over the segments, (M,): what bounds rest on.
+
+    Parameters
+    ----------
+    radar, errors : as for `image_amplitude`.
+    """
+    budget = errors.coherence
+    lists = (budget.relative_snr, budget.rasr, budget.aasr)
+    segments = max(len(values) if isinstance(values, tuple) else 1 for values in lists)
+    squared = _squared_amplitude(
+        segments, len(radar.images), radar.snr, radar.other_coherence, budget
+    )
+    return np.asarray(np.sqrt(squared.max(axis=0)))
+
+
 def image_snr(scene: Scene, *, radar: Radar, errors: ErrorBudget) -> Array:
     """Signal-to-noise ratio of each image in each segment, (S, M), as a power ratio.
 

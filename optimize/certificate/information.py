@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from insar import BaselineDecorrelation, ErrorBudget, Radar, Weighting
+from insar.coherence import largest_amplitude
 from insar.phase_information import pair_phase_variance
 
 from .shared import pair_variance
@@ -136,6 +137,8 @@ class InformationBound:
         bound[:, index, index] = self._phase_weight
         noise = 1.0 - self._amplitude**2
         close = excess.max(axis=-1) < 0.5 * noise.min()
+        if not self._range_alone:
+            close[:] = False
         margin = excess[close][:, :, None] * np.eye(count)
         product = (coherence[close] + margin) * np.linalg.inv(coherence[close] - margin)
         bound[close] = product - np.eye(count)
@@ -171,9 +174,21 @@ class InformationBound:
         steps = np.diff(self.offsets[order], axis=0)
         return tuple(order.tolist()) if np.all(steps >= 0.0) else None
 
+    @property
+    def _range_alone(self) -> bool:
+        """Whether the coherence of a pair follows from its range bands and one amplitude."""
+        budget, radar = self.errors.coherence, self.radar
+        lists = (budget.relative_snr, budget.rasr, budget.aasr)
+        return (
+            budget.spectral
+            and (radar.azimuth_resolution is None or radar.pursuit)
+            and not any(isinstance(values, tuple) for values in lists)
+        )
+
     @cached_property
     def _amplitude(self) -> Array:
-        return np.full(len(self.radar.images), self.radar.image_coherence)
+        """Largest of each image: smaller ones, bands and factors of pairs only take information."""
+        return largest_amplitude(radar=self.radar, errors=self.errors)
 
     @cached_property
     def _phase_weight(self) -> Array:

@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from insar import BaselineDecorrelation, SharedBy, Weighting
+from insar.coherence import largest_amplitude
 from insar.height import common_height_errors
 from insar.phase_information import pair_phase_variance
 
@@ -221,7 +222,7 @@ def reduction(problem: Problem, space: DesignSpace, *, sign: int) -> Reduction:
 def _image_information(problem: Problem) -> float:
     """Most that the noise lets know of each image's phase, among images alike [1/rad²]."""
     errors, radar, count = problem.errors, problem.radar, len(problem.radar.images)
-    amplitude = radar.image_coherence
+    amplitude = float(largest_amplitude(radar=radar, errors=errors).max())
     if errors.weighting is Weighting.PAIRS:
         noise = (
             errors.phase_std**2
