@@ -83,7 +83,7 @@ _Change = tuple[str, str, float, int, Callable[[float], Problem]]
 
 def _of_radar(problem: Problem) -> list[_Change]:
     radar = problem.radar
-    return [
+    changes: list[_Change] = [
         ("snr", "", radar.snr, 1, lambda f: _with_radar(problem, snr=f * radar.snr)),
         ("looks", "", radar.looks, 1, lambda f: _with_radar(problem, looks=f * radar.looks)),
         (
@@ -94,6 +94,18 @@ def _of_radar(problem: Problem) -> list[_Change]:
             lambda f: _with_radar(problem, slant_range_resolution=f * radar.slant_range_resolution),
         ),
     ]
+    azimuth = radar.azimuth_resolution
+    if azimuth is not None:
+        changes.append(
+            (
+                "azimuth_resolution",
+                "m",
+                azimuth,
+                0,
+                lambda f: _with_radar(problem, azimuth_resolution=f * azimuth),
+            )
+        )
+    return changes
 
 
 def _with_radar(problem: Problem, **changes: float) -> Problem:

@@ -14,6 +14,7 @@ ITEMS = {
     "snr": "signal-to-noise ratio",
     "looks": "looks",
     "slant_range_resolution": "slant-range resolution",
+    "azimuth_resolution": "azimuth resolution",
     "position": "satellite position error",
     "azimuth": "azimuth error",
     "range": "slant-range error",

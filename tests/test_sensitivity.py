@@ -104,12 +104,13 @@ def test_what_is_not_there_is_no_item():
     names = {item.name for item in budget_items(_study().problem, _study().positions)}
     assert names == {"snr", "looks", "slant_range_resolution", "prior_height", "baselines"}
     everything = _study(
+        radar=replace(RADAR, azimuth_resolution=3.0),
         **FULL,
         azimuth=ErrorSource(1e-6, SharedBy.ALL),
         ionosphere=Ionosphere(electrons=1e16),
         calibration=CALIBRATION,
     )
-    names |= {*FULL, "azimuth", "ionosphere"}
+    names |= {*FULL, "azimuth", "ionosphere", "azimuth_resolution"}
     names |= {"calibration_spacing", "calibration_accuracy", "calibration_bias"}
     found = {item.name for item in budget_items(everything.problem, everything.positions)}
     assert found == names
