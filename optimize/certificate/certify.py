@@ -201,6 +201,11 @@ def _assumptions(problem: Problem, exhausted: bool) -> tuple[str, ...]:
             notes.append(
                 "The branch and bound leaves the separation out: it only takes designs away."
             )
+        if not problem.errors.coherence.spectral:
+            notes.append(
+                "Volume and time make the coherence matrix general; the phases are taken to be "
+                "known as well as if the signal were known without noise."
+            )
         if len(problem.scene) > 1:
             notes.append(
                 "It gives every segment of the scene its own best formation: no single one does "

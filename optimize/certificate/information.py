@@ -14,7 +14,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from insar import BaselineDecorrelation, ErrorBudget, Radar, Weighting
-from insar.coherence import largest_amplitude
 from insar.phase_information import pair_phase_variance
 
 from .shared import pair_variance
@@ -29,11 +28,18 @@ class InformationBound:
     Parameters
     ----------
     radar, errors : what the phases tell.
+    amplitude : scalar — the largest γ_i of an image.
     offsets : (M, N − 1) — band offsets of the images relative to the first, per gap [bandwidths].
+
+    Notes
+    -----
+    Images with less than the largest amplitude have more noise, azimuth bands that differ leave
+    fewer images to each part of the spectrum: both take data away, and so information.
     """
 
     radar: Radar
     errors: ErrorBudget
+    amplitude: float
     offsets: Array
 
     def upper(self, lower: Array, upper: Array) -> Array:
@@ -51,7 +57,11 @@ class InformationBound:
         decorrelation = self.errors.baseline_decorrelation
         if self.errors.weighting is Weighting.PAIRS:
             return self._laplacian(self._pair_weights(least))
+        if not self.errors.coherence.spectral:
+            return self._of_signal(len(least))
         if decorrelation is BaselineDecorrelation.UNFILTERED:
+            if self.radar.azimuth_resolution is not None and not self.radar.pursuit:
+                return self._of_signal(len(least))  # azimuth bands may differ by anything
             return self._unfiltered(least, most)
         if decorrelation is BaselineDecorrelation.NONE:
             least, most = np.zeros_like(least), np.zeros_like(most)
@@ -114,6 +124,16 @@ class InformationBound:
                 result[:, column] = 2.0 * self.radar.looks * weight[i] * weight[j] * integral
         return result
 
+    def _of_signal(self, count: int) -> Array:
+        """2L γ_i²/(1 − γ_i²) for each image: of whoever knew its signal without noise.
+
+        Γ is diag(1 − γ_i²) plus a signal, whatever volume, time and bands make of that; nobody
+        knows more of the phases than one who is told the signal.
+        """
+        images = len(self.radar.images) - 1
+        known = 2.0 * self.radar.looks * self._phase_weight[0]
+        return np.broadcast_to(known * np.eye(images), (count, images, images))
+
     def _unfiltered(self, least: Array, most: Array) -> Array:
         """2L(Γ∘Γ⁻¹ − I) is not monotone in the coherences: bounded by Γ within an interval.
 
@@ -137,8 +157,6 @@ class InformationBound:
         bound[:, index, index] = self._phase_weight
         noise = 1.0 - self._amplitude**2
         close = excess.max(axis=-1) < 0.5 * noise.min()
-        if not self._range_alone:
-            close[:] = False
         margin = excess[close][:, :, None] * np.eye(count)
         product = (coherence[close] + margin) * np.linalg.inv(coherence[close] - margin)
         bound[close] = product - np.eye(count)
@@ -174,21 +192,9 @@ class InformationBound:
         steps = np.diff(self.offsets[order], axis=0)
         return tuple(order.tolist()) if np.all(steps >= 0.0) else None
 
-    @property
-    def _range_alone(self) -> bool:
-        """Whether the coherence of a pair follows from its range bands and one amplitude."""
-        budget, radar = self.errors.coherence, self.radar
-        lists = (budget.relative_snr, budget.rasr, budget.aasr)
-        return (
-            budget.spectral
-            and (radar.azimuth_resolution is None or radar.pursuit)
-            and not any(isinstance(values, tuple) for values in lists)
-        )
-
     @cached_property
     def _amplitude(self) -> Array:
-        """Largest of each image: smaller ones, bands and factors of pairs only take information."""
-        return largest_amplitude(radar=self.radar, errors=self.errors)
+        return np.full(len(self.radar.images), self.amplitude)
 
     @cached_property
     def _phase_weight(self) -> Array:

@@ -19,8 +19,9 @@ from scipy.special import erfc
 
 Array = NDArray[np.float64]
 
-_UNMEASURED = 1e-12
-"""Information that the unwrapping of `insar` adds to every image, lest X be singular [1/rad²]."""
+_UNMEASURED = 1e-4
+"""Information that every image is given, lest X be singular [1/rad²]: more than the unwrapping of
+`insar` gives, so that the bound holds, and worth a deviation of 100 rad, which finds no cycle."""
 
 _LARGEST_LADDER = 4
 """Differences of images up to which every ladder of pairs is tried: 180 of them."""
@@ -53,6 +54,12 @@ class CycleBound:
         -------
         (n,) — a probability.
         """
+        try:
+            return self._failure(information, lower, upper)
+        except np.linalg.LinAlgError:  # rounding left a covariance that is none: nothing is said
+            return np.zeros(len(information))
+
+    def _failure(self, information: Array, lower: Array, upper: Array) -> Array:
         index = np.arange(information.shape[-1])
         noise = information.copy()
         noise[:, index, index] += _UNMEASURED

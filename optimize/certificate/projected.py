@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from insar.baselines import scene_critical_baseline
+from insar.coherence import image_amplitude
 from insar.height import common_height_errors
 
 from ..design_space import DesignSpace
@@ -34,12 +35,13 @@ class SegmentGroup(NamedTuple):
     Attributes
     ----------
     members : (n,) — 0-based segments.
-    wavenumbers, shifts, range_variance : as in `SegmentModel`.
+    wavenumbers, shifts, amplitude, range_variance : as in `SegmentModel`.
     """
 
     members: NDArray[np.intp]
     wavenumbers: tuple[float, float]
     shifts: tuple[float, float]
+    amplitude: float
     range_variance: float
 
 
@@ -126,6 +128,7 @@ def projected_bound(
                 order=order,
                 wavenumbers=group.wavenumbers,
                 shifts=group.shifts,
+                amplitude=group.amplitude,
                 range_variance=group.range_variance,
                 prior_height_std=_prior(problem),
             )
@@ -178,9 +181,11 @@ def _groups(problem: Problem, seen: Projection, reach: Array) -> list[SegmentGro
     scene, radar = problem.scene, problem.radar
     wavenumber = 2.0 * np.pi / radar.wavelength * reach / seen.lever
     shift = reach / scene_critical_baseline(scene, radar)
+    amplitude = image_amplitude(scene, radar=radar, errors=problem.errors).max(axis=-1)
+    amplitude = np.broadcast_to(amplitude, (len(scene),))
     common = common_height_errors(scene, radar=radar, errors=problem.errors)
     variance = sum((part**2 for part in common.values()), start=np.zeros(len(scene)))
-    properties = np.log(np.stack([wavenumber, shift], axis=-1))
+    properties = np.log(np.stack([wavenumber, shift, amplitude], axis=-1))
     grid = 1e-6
     while True:
         cells = np.round((properties - properties.min(axis=0)) / grid)
@@ -196,6 +201,7 @@ def _groups(problem: Problem, seen: Projection, reach: Array) -> list[SegmentGro
                 members,
                 _range(wavenumber[members]),
                 _range(shift[members]),
+                float(amplitude[members].max()),
                 float(variance[members].min()) * (1.0 - _ROUNDING),
             )
         )

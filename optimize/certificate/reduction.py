@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from insar import BaselineDecorrelation, SharedBy, Weighting
-from insar.coherence import largest_amplitude
+from insar.coherence import image_amplitude
 from insar.height import common_height_errors
 from insar.phase_information import pair_phase_variance
 
@@ -170,6 +170,11 @@ def what_is_left_out(problem: Problem) -> tuple[str, ...]:
     left = []
     if errors.baseline_decorrelation is not BaselineDecorrelation.NONE:
         left.append("decorrelation by the baseline")
+    if not errors.coherence.spectral:
+        left.append("decorrelation by volume or time")
+    amplitude = image_amplitude(problem.scene, radar=problem.radar, errors=errors)
+    if np.ptp(amplitude) > 0.0:
+        left.append("what some images and segments lose in coherence against the best")
     if limits.min_unwrapping_probability is not None:
         left.append("the limit on the unwrapping")
     if limits.max_baseline_fraction is not None:
@@ -222,7 +227,7 @@ def reduction(problem: Problem, space: DesignSpace, *, sign: int) -> Reduction:
 def _image_information(problem: Problem) -> float:
     """Most that the noise lets know of each image's phase, among images alike [1/rad²]."""
     errors, radar, count = problem.errors, problem.radar, len(problem.radar.images)
-    amplitude = float(largest_amplitude(radar=radar, errors=errors).max())
+    amplitude = float(image_amplitude(problem.scene, radar=radar, errors=errors).max())
     if errors.weighting is Weighting.PAIRS:
         noise = (
             errors.phase_std**2
@@ -232,6 +237,7 @@ def _image_information(problem: Problem) -> float:
         return count / (noise + float(pair_variance(radar, errors).min()))
     weight = amplitude**2 / (1.0 - amplitude**2)
     whole = 2.0 * radar.looks * weight
-    if errors.baseline_decorrelation is BaselineDecorrelation.UNFILTERED:
+    unfiltered = errors.baseline_decorrelation is BaselineDecorrelation.UNFILTERED
+    if unfiltered or not errors.coherence.spectral:
         return whole  # see `InformationBound`: what the signal without noise would tell
     return whole * count * weight / (1.0 + count * weight)

@@ -60,7 +60,8 @@ class SegmentModel:
     wavenumbers : (least, largest) — vertical wavenumber at the largest coordinate of a satellite,
         over the segments that the model stands for [rad/m].
     shifts : (least, largest) — band offset at that coordinate [bandwidths].
-    range_variance : scalar — squared height error from the slant range, the smallest [m²].
+    amplitude : scalar — the largest γ_i of an image.
+    range_variance : scalar — squared height error that no formation changes, the smallest [m²].
     prior_height_std : scalar — None where nothing need be unwrapped [m].
     """
 
@@ -69,6 +70,7 @@ class SegmentModel:
     order: tuple[int, ...]
     wavenumbers: tuple[float, float]
     shifts: tuple[float, float]
+    amplitude: float
     range_variance: float
     prior_height_std: float | None
 
@@ -128,6 +130,7 @@ class SegmentModel:
         return InformationBound(
             radar=self.radar,
             errors=self.errors,
+            amplitude=self.amplitude,
             offsets=self.gap_matrix,
         )
 
