@@ -9,7 +9,8 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from insar import ErrorSource, Scene
+from insar import Calibration, ErrorSource, Ionosphere, Scene
+from insar.atmosphere import TEC_UNIT
 from optimize import Problem
 
 from ..document import Block, CodeListing, Column, Section, Table
@@ -91,6 +92,8 @@ def _setting(problem: Problem, critical_baseline: float, study: StudyInfo) -> li
                 ("troposphere", errors.troposphere, "m of zenith delay"),
             )
         ),
+        ("ionosphere left", _ionosphere(errors.ionosphere)),
+        ("calibration", _calibration(errors.calibration)),
         ("weighting", str(errors.weighting)),
         ("baseline decorrelation", str(errors.baseline_decorrelation)),
         ("held constant while the height changes", str(errors.held_constant)),
@@ -128,6 +131,25 @@ def _error(source: ErrorSource, unit: str) -> str:
     return (
         f"{quantity(plain(source.std), unit)}, shared by {source.shared_by}, "
         f"constant over the {str(source.scale).replace('_', ' ')}"
+    )
+
+
+def _ionosphere(ionosphere: Ionosphere | None) -> str:
+    if ionosphere is None:
+        return "none"
+    content = quantity(plain(ionosphere.electrons / TEC_UNIT), "TEC units")
+    return f"{content}, constant over the {str(ionosphere.scale).replace('_', ' ')}"
+
+
+def _calibration(calibration: Calibration | None) -> str:
+    if calibration is None:
+        return "none"
+    spacing = (
+        f"{plain(calibration.spacing_across / 1e3)} by {plain(calibration.spacing_along / 1e3)}"
+    )
+    return (
+        f"each {str(calibration.over).replace('_', ' ')}, control every {spacing} km, accurate to "
+        f"{quantity(plain(calibration.accuracy), 'm')}"
     )
 
 
