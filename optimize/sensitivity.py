@@ -225,24 +225,27 @@ def _nearest(
     ratio: Callable[[float], float], start: float, better: int
 ) -> tuple[float | None, bool]:
     """Factor nearest to 1 at which a ratio is 1, and whether the ratio changes at all."""
-    grid = np.linspace(0.0, math.log(REACH), _SCAN + 1)[1:]
-    best: float | None = None
-    changes = False
-    for side in (-1.0, 1.0) if better == 0 else (float(better),):
-        before = 0.0
-        for step in grid:
-            here = side * float(step)
-            if best is not None and abs(here) > abs(best) + grid[0]:
-                break
-            now = ratio(here)
-            changes = changes or (now != _NEVER and abs(now - start) > 1e-9 * start)
-            if now <= 1.0:
-                edge = here if now == 1.0 else _crossing(ratio, before, here)
-                if best is None or abs(edge) < abs(best):
-                    best = edge
-                break
-            before = here
-    return (None if best is None else math.exp(best)), changes
+    end = math.log(REACH)
+    if better != 0:  # the more of it the better, or the less: the far end tells
+        farthest = ratio(better * end)
+        changes = farthest != _NEVER and abs(farthest - start) > 1e-9 * start
+        if farthest > 1.0:
+            return None, changes
+        return math.exp(_crossing(ratio, 0.0, better * end)), changes
+    edges = [_first_pass(ratio, side) for side in (-1.0, 1.0)]
+    found = [edge for edge in edges if edge is not None]
+    return (math.exp(min(found, key=abs)) if found else None), True
+
+
+def _first_pass(ratio: Callable[[float], float], side: float) -> float | None:
+    """Logarithm of the first factor on one side at which a ratio is 1; None if it never is."""
+    before = 0.0
+    for step in np.linspace(0.0, math.log(REACH), _SCAN + 1)[1:]:
+        here = side * float(step)
+        if ratio(here) <= 1.0:
+            return _crossing(ratio, before, here)
+        before = here
+    return None
 
 
 def _crossing(ratio: Callable[[float], float], outside: float, inside: float) -> float:

@@ -48,11 +48,10 @@ def quick_difference_quantile(
     signal = np.log(gamma**2 / ((1.0 - gamma) * (1.0 + gamma)) * (1.0 + number))
     rows, row_weights = _cubic(np.clip(signal, *_SIGNAL))
     columns, column_weights = _cubic(np.clip(np.log(number), *_LOOKS))
-    ratio = np.zeros(gamma.shape)
-    for i in range(4):
-        for j in range(4):
-            nodes = _nodes(rows + i, columns + j, level)
-            ratio = ratio + row_weights[i] * column_weights[j] * nodes
+    offset = np.arange(4).reshape((4,) + (1,) * gamma.ndim)
+    nodes = _nodes(*np.broadcast_arrays((rows + offset)[:, None], columns + offset), level=level)
+    weights = np.stack(row_weights)[:, None] * np.stack(column_weights)
+    ratio = np.sum(weights * nodes, axis=(0, 1))
     return np.asarray(ratio * phase_std(gamma, looks=number))
 
 
@@ -69,7 +68,7 @@ def _cubic(position: Array) -> tuple[NDArray[np.int64], list[Array]]:
     ]
 
 
-def _nodes(row: NDArray[np.int64], column: NDArray[np.int64], level: float) -> Array:
+def _nodes(row: NDArray[np.int64], column: NDArray[np.int64], *, level: float) -> Array:
     keys, inverse = np.unique(
         np.stack([row.ravel(), column.ravel()], axis=-1), axis=0, return_inverse=True
     )
