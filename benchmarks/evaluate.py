@@ -7,7 +7,10 @@
 2. The same against the number N of satellites at a fixed batch, for four error models, with the
    growth exponent: the slope of log time over log N for the larger half of the N.
 3. The stages of one evaluation, each timed on the ready results of the one before.
-4. The peer: Li 2009 eqs (5)-(9) as a reader of the paper would write them with NumPy, one formation
+4. The compiled loops, where numba is installed: on one thread against the array form and against
+   straight-line code by hand for three satellites (`straight_line.py`), an upper bound of what the
+   machine can do; and against N.
+5. The peer: Li 2009 eqs (5)-(9) as a reader of the paper would write them with NumPy, one formation
    at a time with an explicit R⁻¹, on the paper's problem. Both give the same errors to 1e-9, which
    is checked.
 
@@ -36,6 +39,8 @@ from formation import min_separation, relative_positions
 from insar import (
     BaselineDecorrelation,
     ErrorBudget,
+    ErrorSource,
+    SharedBy,
     Weighting,
     height_error_of,
     phase_model,
@@ -52,6 +57,10 @@ UNFILTERED = dataclasses.replace(
     realistic_errors(), baseline_decorrelation=BaselineDecorrelation.UNFILTERED
 )
 PAIRS = dataclasses.replace(realistic_errors(), weighting=Weighting.PAIRS)
+PLAIN = dataclasses.replace(
+    ErrorBudget.li2009(),
+    azimuth=ErrorSource(1e-4, SharedBy.ALL),  # one angle for all
+)
 MODELS: dict[str, tuple[ErrorBudget, Constraints]] = {
     "joint, filtered, unwrapping": (realistic_errors(), REALISTIC_LIMITS),
     "joint, filtered": (realistic_errors(), NO_UNWRAPPING),
@@ -139,6 +148,72 @@ def by_stage(cases: Sequence[tuple[int, int]], *, seconds: float) -> None:
         print(f"{name:>14}", *(f"{cell:>20}" for cell in cells))
 
 
+# -- compiled ------------------------------------------------------------------------------------
+
+
+def compiled_and_bound(*, batch: int, seconds: float) -> None:
+    """Array form, compiled loops and the straight line by hand, on both models, N = 3."""
+    try:
+        from straight_line import hand_written
+    except ImportError:
+        print("\nnumba is not installed: no compiled form (pip install 'formation-opt[fast]')")
+        return
+    from optimize.kernel import compiled_evaluator
+
+    print(f"\nCompiled, 3 satellites, batch of {batch}, one thread: µs per formation")
+    print(f"{'':>30} {'arrays':>9} {'compiled':>9} {'by hand':>9} {'of bound':>9}")
+    cases = {
+        "plain: pairs, no limits": paper_problem(3, errors=PLAIN, constraints=Constraints()),
+        "joint, filtered, unwrapping": realistic_problem(3),
+    }
+    for label, (problem, space) in cases.items():
+        evaluator, straight = compiled_evaluator(problem, space), hand_written(problem, space)
+        assert evaluator is not None
+        rng = np.random.default_rng(0)
+        designs = rng.uniform(-space.upper, space.upper, size=(batch, space.dimension))
+        states = space.states(designs)
+        known = problem.evaluate(states).objectives
+        np.testing.assert_allclose(evaluator.evaluate(designs).objectives, known, rtol=1e-12)
+        np.testing.assert_allclose(straight(designs), known, rtol=1e-9)
+        part = 256  # keeps one thread
+        arrays, loops, line = (
+            best_time(lambda c=call: c(), seconds=seconds) / size  # type: ignore[misc]
+            for call, size in (
+                (lambda: problem.evaluate(states[:1024]), 1024),  # noqa: B023
+                (lambda: [evaluator.evaluate(d) for d in np.split(designs, batch // part)], batch),  # noqa: B023
+                (lambda: straight(designs), batch),  # noqa: B023
+            )
+        )
+        print(
+            f"{label:>30} {arrays * 1e6:9.2f} {loops * 1e6:9.3f} {line * 1e6:9.3f} "
+            f"{line / loops:9.0%}"
+        )
+
+
+def compiled_against_satellites(counts: Sequence[int], *, batch: int, seconds: float) -> None:
+    from optimize.kernel import compiled_evaluator
+
+    print(f"\nCompiled against N, batch of {batch}, one thread: µs per formation")
+    print(f"{'N':>30}", *(f"{count:>8}" for count in counts), " exponent")
+    models = {"plain: pairs, no limits": (PLAIN, Constraints()), **MODELS}
+    for label, (errors, limits) in models.items():
+        each = []
+        for count in counts:
+            problem, space = realistic_problem(count, errors=errors, constraints=limits)
+            evaluator = compiled_evaluator(problem, space)
+            if evaluator is None:
+                break
+            rng = np.random.default_rng(0)
+            designs = rng.uniform(-space.upper, space.upper, size=(batch, space.dimension))
+            each.append(best_time(lambda: evaluator.evaluate(designs), seconds=seconds) / batch)  # noqa: B023
+        if len(each) < len(counts):
+            print(f"{label:>30} {'not known to the compiled loops':>40}")
+            continue
+        half = len(counts) // 2
+        slope = np.polyfit(np.log(counts[half:]), np.log(each[half:]), 1)[0]
+        print(f"{label:>30}", *(f"{time * 1e6:8.2f}" for time in each), f" N^{slope:.1f}")
+
+
 # -- the peer ------------------------------------------------------------------------------------
 
 
@@ -203,6 +278,8 @@ def main() -> None:
     against_satellites(
         [2, 3, 4, 8, 16, 32] if quick else [2, 3, 4, 8, 16, 32, 64], batch=20, seconds=seconds
     )
+    compiled_and_bound(batch=4096, seconds=seconds)
+    compiled_against_satellites([2, 3, 4, 8, 16, 32, 64], batch=20, seconds=seconds)
     by_stage([(3, 60), (3, 1024), (16, 60)], seconds=seconds)
     against_plain_loop([3, 4, 8], batch=256, seconds=seconds)
 

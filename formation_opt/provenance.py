@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import platform
-from importlib.metadata import version
+from contextlib import suppress
+from importlib.metadata import PackageNotFoundError, version
 
 from . import __version__
 
@@ -11,8 +12,11 @@ _NUMERIC_PACKAGES = ("numpy", "scipy", "deap", "sgp4", "pyerfa", "astropy-iers-d
 
 
 def packages() -> dict[str, str]:
-    """Versions of the packages that the numbers depend on."""
-    return {name: version(name) for name in _NUMERIC_PACKAGES}
+    """Versions of the packages that the numbers depend on, and of numba where it is installed."""
+    versions = {name: version(name) for name in _NUMERIC_PACKAGES}
+    with suppress(PackageNotFoundError):
+        versions["numba"] = version("numba")
+    return versions
 
 
 def python() -> str:

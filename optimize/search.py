@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from .design_space import DesignSpace
 from .genetic import Generation, GeneticSettings, GeneticState, generations
 from .gradient import DesignSlopes, design_slopes
+from .kernel import CompiledEvaluator, compiled_evaluator
 from .problem import Evaluation, Problem
 from .progress import Candidate, Forgetful, GenerationRecord, Keeper, Step
 from .refinement import refine
@@ -26,6 +27,10 @@ end in the same optimum, and the evaluations of all but one are wasted (docs/per
 
 _CLOSED_FORM_FROM = 6
 """Satellites from which derivatives in closed form take less time than a batch of differences."""
+
+
+_COMPILED_FROM = 20_000
+"""Formations from which compiled loops earn back the second that their compiler takes to load."""
 
 
 class SearchSettings(NamedTuple):
@@ -104,6 +109,8 @@ def search(
     by a KeyboardInterrupt, it is the best so far, marked `interrupted`.
     """
     run = _Search(problem, space, on_generation, should_stop, keeper or Forgetful())
+    if settings.genetic.population * settings.genetic.generations >= _COMPILED_FROM:
+        run.compiled = compiled_evaluator(problem, space)
     state, refined = run.restore()
     interrupted = False
     try:
@@ -139,11 +146,12 @@ class _Search:
     history: list[GenerationRecord] = field(default_factory=list)
     candidates: list[Candidate] = field(default_factory=list)
     genetic_objective: float = math.inf
+    compiled: CompiledEvaluator | None = None
     _best: Candidate | None = None
 
     @cached_property
     def slopes(self) -> Callable[[Array], DesignSlopes | None]:
-        if self.space.satellites < _CLOSED_FORM_FROM:
+        if self.space.satellites < (_CLOSED_FORM_FROM if self.compiled is None else 12):
             return lambda _design: None
         return design_slopes(self.problem, self.space)
 
@@ -157,6 +165,8 @@ class _Search:
 
     def evaluate(self, designs: Array) -> Evaluation:
         self.evaluations += len(designs)
+        if self.compiled is not None:
+            return self.compiled.evaluate(designs)
         return self.problem.evaluate(self.space.states(designs))
 
     def restore(self) -> tuple[GeneticState | None, list[Step]]:
@@ -259,6 +269,8 @@ class _Search:
         if self.should_stop():
             raise KeyboardInterrupt
         self.evaluations += len(designs)
+        if self.compiled is not None:
+            return self.compiled.objectives_and_margins(designs)
         objectives, margins = self.problem.objectives_and_margins(self.space.states(designs))
         return objectives, np.concatenate([np.empty((len(designs), 0)), *margins], axis=-1)
 

@@ -1,0 +1,121 @@
+"""Scores designs in compiled loops where numba is installed and the problem is one they know."""
+
+from __future__ import annotations
+
+import os
+from concurrent.futures import ThreadPoolExecutor
+from functools import cache
+from itertools import pairwise
+from types import ModuleType
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..constraints import FEASIBILITY_TOLERANCE
+from ..design_space import DesignSpace
+from ..problem import Evaluation, Problem
+from .constants import constants, scratch, supported
+
+Array = NDArray[np.float64]
+
+_PARALLEL_FROM = 512
+"""Designs from which a second thread takes less time than it costs to wake it."""
+
+
+class CompiledEvaluator:
+    """`Problem.evaluate` of a space's designs, in compiled loops.
+
+    Parameters
+    ----------
+    problem : what is minimized, and within which limits.
+    space : the designs.
+    compiled : the module of the loops.
+    """
+
+    def __init__(self, problem: Problem, space: DesignSpace, compiled: ModuleType) -> None:
+        self._compiled = compiled
+        self._constants = constants(problem, space)
+        self._limits = len(problem.limits)
+        probe = problem.population(space.states(np.zeros((1, space.dimension))))
+        self._items = sum(limit.margins(probe).shape[-1] for limit in problem.limits)
+
+    def evaluate(self, designs: Array) -> Evaluation:
+        """Score designs.
+
+        Parameters
+        ----------
+        designs : (P, D) — design vectors.
+
+        Returns
+        -------
+        Evaluation — that of `Problem.evaluate` up to rounding, for any number of threads the same.
+        """
+        objectives, worst, _ = self._score(designs, items=0)
+        return Evaluation(objectives, np.where(worst < -FEASIBILITY_TOLERANCE, -worst, 0.0))
+
+    def objectives_and_margins(self, designs: Array) -> tuple[Array, Array]:
+        """Score designs, with the margin of every single limited item.
+
+        Parameters
+        ----------
+        designs : (P, D) — design vectors.
+
+        Returns
+        -------
+        (P,) and (P, items) — as `Problem.objectives_and_margins` has them, all limits in a row.
+        """
+        objectives, _, items = self._score(designs, items=self._items)
+        return objectives, items
+
+    def _score(self, designs: Array, *, items: int) -> tuple[Array, Array, Array]:
+        vectors = np.ascontiguousarray(designs, dtype=np.float64)
+        count = len(vectors)
+        objectives = np.empty(count)
+        worst, every = np.empty((count, self._limits)), np.empty((count, items))
+
+        def score(begin: int, end: int) -> None:
+            room = scratch(self._constants)
+            self._compiled.score_range(
+                vectors, begin, end, self._constants, room, objectives, worst, every
+            )
+
+        if count < _PARALLEL_FROM:
+            score(0, count)
+            return objectives, worst, every
+        # The loops hold no lock of the interpreter. Each thread writes rows of its own.
+        parts = np.linspace(0, count, _threads() + 1).astype(int).tolist()
+        for done in [_pool().submit(score, begin, end) for begin, end in pairwise(parts)]:
+            done.result()
+        return objectives, worst, every
+
+
+def _threads() -> int:
+    return os.cpu_count() or 1
+
+
+@cache
+def _pool() -> ThreadPoolExecutor:
+    return ThreadPoolExecutor(_threads(), thread_name_prefix="formations")
+
+
+def compiled_evaluator(problem: Problem, space: DesignSpace) -> CompiledEvaluator | None:
+    """Return the compiled form of a problem.
+
+    Parameters
+    ----------
+    problem : what is minimized, and within which limits.
+    space : the designs.
+
+    Returns
+    -------
+    CompiledEvaluator; None where numba is not installed, or the problem has a part that the
+    compiled loops do not know: a joint weighting without filtering, volume or temporal
+    decorrelation, a family of your own.
+    """
+    if not supported(problem, space):
+        return None
+    try:
+        from . import compiled
+    except ImportError:
+        return None
+    return CompiledEvaluator(problem, space, compiled)

@@ -1,0 +1,199 @@
+"""The compiled loops against the array form, which they are held to."""
+
+from __future__ import annotations
+
+import dataclasses
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from formation import Orbit, ground_track_circular, space_circular
+from insar import (
+    BaselineDecorrelation,
+    ErrorBudget,
+    ErrorSource,
+    HeldConstant,
+    Radar,
+    Scene,
+    SharedBy,
+    Weighting,
+    monostatic,
+    one_transmitter,
+    ping_pong,
+)
+from optimize import Constraints, DesignSpace, Problem
+from optimize.kernel import compiled_evaluator
+
+pytest.importorskip("numba")
+
+N = Orbit.circular(altitude=514e3, inclination=1.7).mean_motion
+ALL_LIMITS = Constraints(
+    max_radius=1350.0,
+    min_separation=100.0,
+    min_unwrapping_probability=0.99,
+    prior_height_std=4.0,
+    max_baseline_fraction=0.7,
+    max_offset=500.0,
+    max_rate=0.6,
+)
+
+
+@st.composite
+def problems(draw):
+    rng = np.random.default_rng(draw(st.integers(0, 2**32 - 1)))
+    count = draw(st.integers(2, 7))
+    joint = draw(st.booleans())
+    decorrelation = draw(
+        st.sampled_from(
+            [BaselineDecorrelation.FILTERED, BaselineDecorrelation.NONE]
+            + ([] if joint else [BaselineDecorrelation.UNFILTERED])
+        )
+    )
+    pair = not joint and draw(st.booleans())
+    errors = ErrorBudget(
+        position=ErrorSource(rng.choice([0.0, 1e-3, 0.01]), SharedBy.SATELLITE),
+        azimuth=ErrorSource(rng.choice([0.0, 1e-5]), SharedBy.PAIR if pair else SharedBy.ALL),
+        synchronization=ErrorSource(
+            rng.choice([0.0, 0.02]), SharedBy.PAIR if pair else SharedBy.IMAGE
+        ),
+        range=ErrorSource(0.01, SharedBy.ALL),
+        weighting=Weighting.JOINT if joint else Weighting.PAIRS,
+        baseline_decorrelation=decorrelation,
+        held_constant=draw(st.sampled_from(HeldConstant)),
+        phase_std=0.2 if not joint and draw(st.booleans()) else None,
+    )
+    images = draw(st.sampled_from([one_transmitter, monostatic]))(count)
+    if count == 2 and draw(st.booleans()):
+        images = ping_pong(count)
+    limits = ALL_LIMITS
+    for name in ("max_radius", "min_separation", "max_baseline_fraction", "max_offset"):
+        if draw(st.booleans()):
+            limits = dataclasses.replace(limits, **{name: None})
+    if draw(st.booleans()):
+        limits = dataclasses.replace(limits, min_unwrapping_probability=None)
+    scene = Scene.broadside_strip(
+        times=np.sort(rng.uniform(0.0, 3000.0, rng.integers(1, 6))),
+        look_angle=np.deg2rad(rng.uniform(15.0, 45.0)),
+        altitude=514e3,
+        earth_radius=6_378_137.0,
+    )
+    problem = Problem(
+        mean_motion=N,
+        scene=scene,
+        radar=Radar(
+            wavelength=rng.choice([0.031, 0.24]),
+            slant_range_resolution=3.0,
+            snr=rng.uniform(2.0, 30.0),
+            looks=rng.uniform(1.0, 40.0),
+            images=images,
+            azimuth_resolution=rng.choice([None, 3.0]),
+        ),
+        errors=errors,
+        constraints=limits,
+    )
+    space = DesignSpace(
+        names=tuple(f"S{i}" for i in range(count)),
+        family=draw(st.sampled_from([space_circular, ground_track_circular])),
+        mean_motion=N,
+        max_offset=1500.0,
+        max_rate=1500.0 * N,
+        signs=draw(st.sampled_from([(1,), (-1,), (1, -1)])),
+    )
+    return problem, space, rng.uniform(-space.upper, space.upper, (40, space.dimension))
+
+
+@settings(max_examples=120, deadline=None)
+@given(problems())
+def test_compiled_scores_are_those_of_the_array_form(case):
+    problem, space, designs = case
+    designs[:10] *= 0.05  # close formations, which keep more of the band
+    compiled = compiled_evaluator(problem, space)
+    assert compiled is not None
+    objectives, items = compiled.objectives_and_margins(designs)
+    expected, margins = problem.objectives_and_margins(space.states(designs))
+    np.testing.assert_allclose(objectives, expected, rtol=1e-12)
+    reference = np.concatenate([np.empty((len(designs), 0)), *margins], axis=-1)
+    # The margin of the unwrapping is a logarithm, whose failure comes of an inverse matrix.
+    np.testing.assert_allclose(items, reference, rtol=1e-12, atol=1e-10)
+    scored, known = compiled.evaluate(designs), problem.evaluate(space.states(designs))
+    np.testing.assert_array_equal(scored.objectives, objectives)
+    np.testing.assert_allclose(scored.violations, known.violations, rtol=1e-10, atol=1e-10)
+
+
+def example(count=3, **changes):
+    errors = ErrorBudget(
+        position=ErrorSource(0.001, SharedBy.SATELLITE),
+        azimuth=ErrorSource(1e-5, SharedBy.ALL),
+        **changes,
+    )
+    scene = Scene.broadside_strip(
+        times=[1.0, 5.0], look_angle=0.4, altitude=514e3, earth_radius=6_378_137.0
+    )
+    radar = Radar(
+        wavelength=0.031,
+        slant_range_resolution=3.0,
+        snr=10.0,
+        looks=16.0,
+        images=one_transmitter(count),
+    )
+    problem = Problem(
+        mean_motion=N, scene=scene, radar=radar, errors=errors, constraints=ALL_LIMITS
+    )
+    space = DesignSpace(
+        names=tuple(map(str, range(count))),
+        family=space_circular,
+        mean_motion=N,
+        max_offset=600.0,
+        max_rate=600.0 * N,
+    )
+    return problem, space
+
+
+def test_any_number_of_threads_and_any_batch_give_the_same_bits(monkeypatch):
+    problem, space = example()
+    rng = np.random.default_rng(0)
+    designs = rng.uniform(-space.upper, space.upper, (1500, space.dimension))
+    compiled = compiled_evaluator(problem, space)
+    results = []
+    for threads in (1, 2, 3):
+        monkeypatch.setattr("optimize.kernel.evaluator._threads", lambda threads=threads: threads)
+        results.append(compiled.evaluate(designs))
+    results.append(
+        type(results[0])(
+            *map(
+                np.concatenate,
+                zip(*(compiled.evaluate(part) for part in np.split(designs, 15)), strict=True),
+            )
+        )
+    )
+    for other in results[1:]:
+        np.testing.assert_array_equal(results[0].objectives, other.objectives)
+        np.testing.assert_array_equal(results[0].violations, other.violations)
+
+
+def test_designs_that_measure_nothing_are_infinite():
+    problem, space = example()
+    designs = np.zeros((2, space.dimension))
+    designs[1, ::2] = 100.0  # all at one place
+    assert np.all(np.isinf(compiled_evaluator(problem, space).evaluate(designs).objectives))
+
+
+def test_a_problem_that_the_loops_do_not_know_is_left_to_arrays():
+    problem, space = example(baseline_decorrelation=BaselineDecorrelation.UNFILTERED)
+    assert compiled_evaluator(problem, space) is None
+
+
+def test_without_numba_there_is_no_compiled_form():
+    code = (
+        "import sys; sys.modules['numba'] = None\n"
+        "import optimize.kernel.evaluator as e\n"
+        "e.supported = lambda *_: True\n"
+        "assert e.compiled_evaluator(None, None) is None\n"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True)
+    code = "import sys, optimize; assert 'numba' not in sys.modules"
+    subprocess.run([sys.executable, "-c", code], check=True)
