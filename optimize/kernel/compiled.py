@@ -326,6 +326,51 @@ def _height_information(
 
 
 @_jit
+def _scatter(design, satellites):
+    """Scatter matrix of the fleet in the plane (z0, ż0) and its determinant, O(N)."""
+    z, y = 0.0, 0.0
+    for n in range(satellites):
+        z += design[2 * n]
+        y += design[2 * n + 1]
+    z /= satellites
+    y /= satellites
+    zz, zy = 0.0, 0.0
+    for n in range(satellites):
+        zz += (design[2 * n] - z) ** 2
+        zy += (design[2 * n] - z) * (design[2 * n + 1] - y)
+    slope = zy / zz if zz > 0.0 else 0.0
+    yy, rest = 0.0, 0.0
+    for n in range(satellites):
+        yy += (design[2 * n + 1] - y) ** 2
+        rest += (design[2 * n + 1] - y - slope * (design[2 * n] - z)) ** 2
+    return zz, zy, yy, zz * rest  # a determinant without cancellation
+
+
+@_jit
+def _scatter_error(zz, zy, yy, determinant, height, azimuth, per_height, variance, factor, shift):
+    """Mean square error of the segments from the scatter matrix M alone.
+
+    J = (A β/f² + AD − B²)/(β(β/f² + D)) with A = kᵀMk, B = kᵀMc, D = cᵀMc; and AD − B² is
+    det M times the square of k × c, which does not cancel.
+    """
+    total = 0.0
+    for s in range(shift.size):
+        k0, k1 = height[s, 0] * per_height[s], height[s, 1] * per_height[s]
+        own = k0 * k0 * zz + 2.0 * k0 * k1 * zy + k1 * k1 * yy
+        beta = variance[s]
+        information = own / beta
+        if factor > 0.0:
+            c0, c1 = azimuth[s, 0] * factor, azimuth[s, 1] * factor
+            across = c0 * c0 * zz + 2.0 * c0 * c1 * zy + c1 * c1 * yy
+            both = determinant * (k0 * c1 - k1 * c0) ** 2
+            information = (own * beta + both) / (beta * (beta + across))
+        if own < _NO_WAVENUMBER**2 or information < _NOTHING:
+            return math.inf
+        total += 1.0 / information + shift[s]
+    return total
+
+
+@_jit
 def _alike_information(variance, azimuth_factor, kz, along):
     """J where all images are alike: the information of the fleet's scatter, O(M).
 
@@ -493,6 +538,7 @@ def score_range(designs, begin, end, k, w, objectives, worst, items):
     k_prior = k.prior
     k_range_rate = _bare(k.range_rate)
     k_receiver = _bare(k.receiver)
+    k_scatter = k.scatter
     k_shared = _bare(k.shared)
     k_shift = _bare(k.shift)
     k_signs = k.signs
@@ -560,7 +606,22 @@ def score_range(designs, begin, end, k, w, objectives, worst, items):
             limit += 1
         fraction = limit
         total, information = 0.0, 0.0
-        for s in range(segments):
+        if k_scatter > 0.0:
+            zz, zy, yy, determinant = _scatter(designs[p], satellites)
+            scale = k_scatter**2
+            total = _scatter_error(
+                zz * scale,
+                zy * scale,
+                yy * scale,
+                determinant * scale**2,
+                k_height[side],
+                k_azimuth[side],
+                k_per_height,
+                k_alike,
+                k_azimuth_factor,
+                k_shift,
+            )
+        for s in range(segments if k_scatter == 0.0 else 0):
             for n in range(satellites):
                 offset = designs[p, 2 * n] - designs[p, 0]
                 rate = designs[p, 2 * n + 1] - designs[p, 1]

@@ -56,6 +56,8 @@ class Constants(NamedTuple):
         for each segment and pair.
     alike : (S,) — variance of a phase, noise and shared errors, where all images are alike and
         nothing but the azimuth error depends on the design; 0 otherwise [rad²].
+    scatter : how often each image counts the place of its satellite, where the information is
+        that of the fleet's scatter alone and no limit looks at pairs of images; 0 otherwise.
     shift : (S,) — squares of the errors that move the height directly [m²].
     max_radius, min_separation, failure_limit, prior, max_fraction, max_offset, max_rate : limits.
     """
@@ -91,6 +93,7 @@ class Constants(NamedTuple):
     eta_contrast: Array
     eta_intervals: int
     alike: Array
+    scatter: float
     shift: Array
     max_radius: float
     min_separation: float
@@ -228,6 +231,7 @@ def constants(problem: Problem, space: DesignSpace) -> Constants:
     efficiency = _efficiency(pair_coherence, errors)
     curves = efficiency or _NO_EFFICIENCY
     factor, pair_variance = _constant_errors(problem)
+    alike = _alike(problem, amplitude, factor, pair_variance)
     in_pairs = errors.azimuth.shared_by is SharedBy.PAIR
     azimuth = wavenumber * errors.azimuth.std
     probability = limits.min_unwrapping_probability
@@ -262,7 +266,8 @@ def constants(problem: Problem, space: DesignSpace) -> Constants:
         eta_rate=curves.rate,
         eta_contrast=curves.contrast,
         eta_intervals=curves.intervals,
-        alike=_alike(problem, amplitude, factor, pair_variance),
+        alike=alike,
+        scatter=_scatter(problem) if np.all(alike > 0.0) else 0.0,
         shift=_height_shift(problem),
         max_radius=limits.max_radius or 0.0,
         min_separation=limits.min_separation or 0.0,
@@ -319,6 +324,19 @@ def _alike(problem: Problem, amplitude: Array, factor: Array, pair_variance: Arr
     if errors.phase_std is not None:
         variance = np.full(segments, errors.phase_std**2)
     return np.asarray((variance + pair_variance[0]) / count + own)
+
+
+def _scatter(problem: Problem) -> float:
+    radar, limits = problem.radar, problem.constraints
+    if limits.min_unwrapping_probability is not None or limits.max_baseline_fraction is not None:
+        return 0.0
+    transmitters = {image[0] for image in radar.images}
+    receivers = {image[1] for image in radar.images}
+    if len(radar.images) != radar.satellite_count or len(receivers) != radar.satellite_count:
+        return 0.0
+    if len(transmitters) == 1:
+        return 1.0
+    return 2.0 if all(transmitter == receiver for transmitter, receiver in radar.images) else 0.0
 
 
 def _height_shift(problem: Problem) -> Array:

@@ -21,6 +21,9 @@ Array = NDArray[np.float64]
 _PARALLEL_FROM = 512
 """Designs from which a second thread takes less time than it costs to wake it."""
 
+_SAME = 1e-8
+"""Difference of the two forms that is rounding, not another model."""
+
 
 class CompiledEvaluator:
     """`Problem.evaluate` of a space's designs, in compiled loops.
@@ -118,4 +121,15 @@ def compiled_evaluator(problem: Problem, space: DesignSpace) -> CompiledEvaluato
         from . import compiled
     except ImportError:
         return None
-    return CompiledEvaluator(problem, space, compiled)
+    evaluator = CompiledEvaluator(problem, space, compiled)
+    return evaluator if _agree(evaluator, problem, space) else None
+
+
+def _agree(evaluator: CompiledEvaluator, problem: Problem, space: DesignSpace) -> bool:
+    """Whether both forms score some designs alike: a model that grew is left to the arrays."""
+    shares = np.random.default_rng(0).uniform(-0.5, 0.5, (8, space.dimension))
+    designs = shares * space.upper
+    scored, known = evaluator.evaluate(designs), problem.evaluate(space.states(designs))
+    return np.allclose(scored.objectives, known.objectives, rtol=_SAME) and np.allclose(
+        scored.violations, known.violations, rtol=_SAME, atol=_SAME
+    )
