@@ -21,7 +21,7 @@ Array = NDArray[np.float64]
 _PARALLEL_FROM = 512
 """Designs from which a second thread takes less time than it costs to wake it."""
 
-_SAME = 1e-8
+_SAME = 1e-6
 """Difference of the two forms that is rounding, not another model."""
 
 
@@ -127,7 +127,8 @@ def compiled_evaluator(problem: Problem, space: DesignSpace) -> CompiledEvaluato
 
 def _agree(evaluator: CompiledEvaluator, problem: Problem, space: DesignSpace) -> bool:
     """Whether both forms score some designs alike: a model that grew is left to the arrays."""
-    shares = np.random.default_rng(0).uniform(-0.5, 0.5, (8, space.dimension))
+    # Close formations: images that share no band leave matrices of condition 1e12.
+    shares = np.random.default_rng(0).uniform(-0.1, 0.1, (8, space.dimension))
     designs = shares * space.upper
     scored, known = evaluator.evaluate(designs), problem.evaluate(space.states(designs))
     return np.allclose(scored.objectives, known.objectives, rtol=_SAME) and np.allclose(
