@@ -41,7 +41,7 @@ from optimize.certificate import CertificateSettings, certify
 from optimize.refinement import refine
 from optimize.structured import structured_designs
 
-WANTED = 100_000
+WANTED, PROBLEMS = 100_000, 140
 N_LI = 1.10341e-3
 
 
@@ -65,7 +65,7 @@ def soundness(seed=20261128):
     compared = problems = proved = 0
     closest = np.inf
     began = time.perf_counter()
-    while compared < WANTED:
+    while compared < WANTED or problems < PROBLEMS:
         satellites = 2 + problems % 7
         problem, space = random_problem(rng, satellites)
         designs = random_designs(rng, problem, space, 4000)
