@@ -22,6 +22,7 @@ from tables import (  # noqa: E402 — found beside this file
     missions,
     orbits,
     phase_statistics,
+    simulation,
     spotlight,
     steering,
     steering_papers,
@@ -42,6 +43,7 @@ _MODULES = (
     spotlight,
     video,
     missions,
+    simulation,
 )
 TABLES = {name: table for module in _MODULES for name, table in module.TABLES.items()}
 

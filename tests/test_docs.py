@@ -34,6 +34,7 @@ GENERATED = [
     "missions.md",
     "orbits.md",
     "phase_statistics.md",
+    "simulation.md",
     "steering.md",
     "validation.md",
     "zhao2019.md",
