@@ -13,6 +13,7 @@ from insar import BaselineDecorrelation, ErrorBudget, SharedBy, Weighting
 from insar.baselines import scene_critical_baseline
 from insar.coherence import doppler_offset, image_amplitude
 from insar.height import common_height_errors
+from insar.statistics import efficiency_curves
 
 from ..design_space import DesignSpace
 from ..problem import Problem
@@ -190,6 +191,9 @@ def supported(problem: Problem, space: DesignSpace) -> bool:
         errors.weighting is Weighting.JOINT
         and errors.baseline_decorrelation is BaselineDecorrelation.UNFILTERED
     )
+    unfiltered = errors.baseline_decorrelation is BaselineDecorrelation.UNFILTERED
+    if _exact(errors) and unfiltered:  # the efficiency then depends on coherence and looks both
+        return False
     return (
         space.family in (space_circular, ground_track_circular)
         and errors.coherence.spectral
@@ -316,11 +320,15 @@ def _alike(problem: Problem, amplitude: Array, factor: Array, pair_variance: Arr
     if not same or errors.baseline_decorrelation is not BaselineDecorrelation.NONE:
         return np.zeros(segments)
     gamma = amplitude[:, 0] ** 2
+    efficiency = np.ones(segments)
+    if _exact(errors):
+        looks = np.full((segments, 1), radar.looks)
+        efficiency = efficiency_curves(gamma[:, None])(looks)[:, 0]
     if errors.weighting is Weighting.JOINT:
         weight = gamma / (1.0 - gamma)
         edge = 2.0 * radar.looks * weight**2 / (1.0 + count * weight)
-        return np.asarray(1.0 / (count * edge) + own)
-    variance = (1.0 - gamma**2) / (2.0 * radar.looks * gamma**2)
+        return np.asarray(1.0 / (count * edge * efficiency) + own)
+    variance = (1.0 - gamma**2) / (2.0 * radar.looks * gamma**2) / efficiency
     if errors.phase_std is not None:
         variance = np.full(segments, errors.phase_std**2)
     return np.asarray((variance + pair_variance[0]) / count + own)
@@ -357,7 +365,21 @@ class Efficiency(NamedTuple):
 
 def _efficiency(coherence: Array, errors: ErrorBudget) -> Efficiency | None:
     """Curves of pairs (S, K) of constant coherence; None where the Cramér-Rao bound counts."""
-    return None
+    if not _exact(errors):
+        return None
+    curves = efficiency_curves(coherence)
+    return Efficiency(
+        cubics=np.ascontiguousarray(curves.coefficients),
+        first=curves.first.astype(np.int64).ravel(),
+        rate=curves.rate.ravel(),
+        contrast=curves.contrast.ravel(),
+        intervals=int(np.diff(np.unique(np.append(curves.first, len(curves.coefficients))))[0]),
+    )
+
+
+def _exact(errors: ErrorBudget) -> bool:
+    exact = getattr(errors, "phase_statistics", "cramer_rao") == "exact"
+    return exact and errors.phase_std is None
 
 
 _NO_EFFICIENCY = Efficiency(
