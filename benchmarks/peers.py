@@ -41,7 +41,7 @@ def our_search(task: Task) -> None:
 
 def our_genetic_algorithm(task: Task) -> None:
     """The genetic algorithm alone, with generations as long as the budget lasts."""
-    genetic = task.settings.genetic._replace(generations=10**9)
+    genetic = task.settings.algorithm._replace(generations=10**9)
     our_search(task._replace(settings=SearchSettings(genetic, refinements=0)))
 
 
@@ -53,7 +53,7 @@ creator.create("Formation", list, fitness=creator.Lexicographic)
 
 def plain_deap(task: Task) -> None:
     """The same genetic algorithm as the DEAP manual writes it: one individual at a time."""
-    problem, space, settings = task.problem, task.space, task.settings.genetic
+    problem, space, settings = task.problem, task.space, task.settings.algorithm
     random.seed(task.seed)
     upper = space.upper.tolist()
     lower = [-bound for bound in upper]
@@ -155,7 +155,7 @@ def de_constraints(task: Task, *, polish: bool = False, refined: bool = False) -
     upper = task.space.upper
     limits = NonlinearConstraint(margins, -FEASIBILITY_TOLERANCE, np.inf)
     # A finish gets the evaluations that our refinement used: those beyond our generations'.
-    ours = task.settings.genetic
+    ours = task.settings.algorithm
     rounds = ours.population * (ours.generations + 1) // (MEMBERS * upper.size) - 1
     if not (polish or refined):
         rounds = UNTIL_SPENT

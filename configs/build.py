@@ -20,15 +20,19 @@ from insar.observe import Observation
 from insar.observe.agile.staring import StaringScene
 from optimize import (
     CertificateSettings,
+    CovarianceSettings,
     DemRequest,
     DesignSpace,
+    DifferentialSettings,
     FormationClaim,
     GeneticSettings,
+    IslandSettings,
     OpenNumber,
     Problem,
     RefutationSettings,
     SearchSettings,
 )
+from optimize.islands import Algorithm
 
 from .base import Block
 from .domain import build_problem, build_refutation
@@ -355,14 +359,25 @@ def _in_order(members: Sequence[_Member], names: Sequence[str]) -> list[_Member]
 
 
 def _settings(block: SearchBlock) -> SearchSettings:
-    genetic = GeneticSettings(
-        population=block.population,
-        generations=block.generations,
-        crossover_probability=block.crossover_probability,
-        mutation_probability=block.mutation_probability,
-        crossover_eta=block.crossover_eta,
-        mutation_eta=block.mutation_eta,
-        tournament=block.tournament,
-        elite=block.elite,
+    algorithm: Algorithm
+    if block.method == "differential_evolution":
+        algorithm = DifferentialSettings(block.population, block.generations)
+    elif block.method == "cma_es":
+        algorithm = CovarianceSettings(block.population, block.generations)
+    else:
+        algorithm = GeneticSettings(
+            population=block.population,
+            generations=block.generations,
+            crossover_probability=block.crossover_probability,
+            mutation_probability=block.mutation_probability,
+            crossover_eta=block.crossover_eta,
+            mutation_eta=block.mutation_eta,
+            tournament=block.tournament,
+            elite=block.elite,
+        )
+    return SearchSettings(
+        algorithm=algorithm,
+        refinements=block.refinements,
+        islands=IslandSettings(block.islands, block.migration_interval, block.restart),
+        structured=block.structured_starts,
     )
-    return SearchSettings(genetic=genetic, refinements=block.refinements)

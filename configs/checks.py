@@ -225,7 +225,7 @@ def check_size(radar: RadarBlock, scene: SceneBlock, satellites: int, population
             f"has {segments} segments, which with {images} images and {population} formations at a "
             f"time is too large for memory: formations x segments x images squared may reach "
             f"{MAX_ENTRIES:.0e}",
-            "take fewer segments, or a smaller search.population",
+            "take fewer segments, or a smaller search.population or fewer search.islands",
         )
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Self
+from typing import Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -102,11 +102,26 @@ class SearchLimitsBlock(LimitsBlock):
         return self
 
 
-class SearchBlock(Block):
-    """The genetic algorithm and the refinement of its best designs."""
+_GENETIC_KEYS = (
+    "crossover_probability",
+    "crossover_eta",
+    "mutation_probability",
+    "mutation_eta",
+    "tournament",
+    "elite",
+)
 
+
+class SearchBlock(Block):
+    """The populations that search, and the refinement of the best designs."""
+
+    method: Literal["genetic", "differential_evolution", "cma_es"] = Field(
+        default="genetic",
+        description="Algorithm of the populations: genetic (DEAP), differential_evolution or "
+        "cma_es (DEAP).",
+    )
     population: Whole = Field(
-        default=60, ge=4, le=10_000, description="Formations of a generation."
+        default=60, ge=4, le=10_000, description="Formations of a generation, on each island."
     )
     generations: Whole = Field(
         default=40, ge=1, le=100_000, description="Generations after the first."
@@ -122,6 +137,27 @@ class SearchBlock(Block):
         ge=0,
         le=1000,
         description="How many of the best, mutually distant designs are refined; 0 for none.",
+    )
+    structured_starts: Whole = Field(
+        default=4,
+        ge=0,
+        le=100,
+        description="How many structured designs (dumbbells and ladders) are refined besides, so "
+        "that the result depends less on luck; 0 for none.",
+    )
+    islands: Whole = Field(
+        default=1, ge=1, le=100, description="Populations that search side by side."
+    )
+    migration_interval: Whole = Field(
+        default=10,
+        ge=1,
+        le=100_000,
+        description="Generations after which the best of each island reaches the next; CMA-ES "
+        "takes in none.",
+    )
+    restart: bool = Field(
+        default=True,
+        description="Whether a population whose designs have become alike begins anew.",
     )
     crossover_probability: Number = Field(
         default=0.9, ge=0, le=1, description="Probability that a pair of parents is crossed."
@@ -150,6 +186,20 @@ class SearchBlock(Block):
 
     @model_validator(mode="after")
     def _check(self) -> Self:
+        if self.method != "genetic":
+            for key in _GENETIC_KEYS:
+                if key in self.model_fields_set:
+                    raise wrong(
+                        (key,),
+                        f"is a setting of the genetic algorithm, and method is {self.method}",
+                        "remove this key, or set method: genetic",
+                    )
+        if self.method == "differential_evolution" and self.population < 5:
+            raise wrong(
+                ("population",),
+                "must be at least 5 for differential_evolution, which combines four members",
+                "raise the population",
+            )
         if self.elite >= self.population:
             raise wrong(
                 ("elite",),

@@ -125,7 +125,7 @@ class OptimizeStudy(FormationStudy):
     def _check(self) -> Self:
         names = self.formation.names
         self._check_common(names)
-        check_size(self.radar, self.scene, len(names), self.search.population)
+        check_size(self.radar, self.scene, len(names), self.search.population * self.search.islands)
         check_flown(self.compare)
         if self.formation.initial is not None:
             check_members(self.formation.initial, names, ("formation", "initial"))

@@ -13,10 +13,13 @@ from .assessment import (
 from .certificate import Certificate, CertificateSettings, certify
 from .claims import FormationClaim, FormationQuantity, OpenNumber, Over, measure, possible
 from .constraints import Bound, ConstraintReport, Constraints, FailureLimit, Limit
+from .covariance import CovarianceSettings
 from .dem_verdict import DemRequest, DemVerdict, FailedDemand, dem_verdict, looks_for
 from .design_space import DesignSpace, DesignVariables
+from .differential import DifferentialSettings
 from .findings import findings
 from .genetic import GeneticSettings
+from .islands import IslandSettings, SearchMethod
 from .problem import Evaluation, Problem
 from .progress import GenerationRecord, Keeper
 from .refuting import RefutationSettings, refuted
@@ -31,10 +34,12 @@ __all__ = [
     "CertificateSettings",
     "ConstraintReport",
     "Constraints",
+    "CovarianceSettings",
     "DemRequest",
     "DemVerdict",
     "DesignSpace",
     "DesignVariables",
+    "DifferentialSettings",
     "EvaluateResult",
     "Evaluation",
     "FailedDemand",
@@ -44,6 +49,7 @@ __all__ = [
     "GenerationRecord",
     "GeneticSettings",
     "ImagePair",
+    "IslandSettings",
     "Keeper",
     "Limit",
     "Motion",
@@ -53,6 +59,7 @@ __all__ = [
     "Problem",
     "RefutationSettings",
     "Rung",
+    "SearchMethod",
     "SearchResult",
     "SearchSettings",
     "Unwrapping",

@@ -1,19 +1,24 @@
-"""The genetic algorithm (DEAP): real-coded, feasibility first, one batched call a generation."""
+"""The genetic algorithm (DEAP): real-coded, feasibility first."""
 
 from __future__ import annotations
 
 import random
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
 from deap import base, tools
 from numpy.typing import NDArray
 
+from .islands import SearchMethod
 from .problem import Evaluation
 
 Array = NDArray[np.float64]
+
+COLLAPSED = 1e-3
+"""Extent of a population, in parts of the box, at which it finds nothing new."""
 
 
 class GeneticSettings(NamedTuple):
@@ -39,68 +44,50 @@ class GeneticSettings(NamedTuple):
     tournament: int = 2
     elite: int = 1
 
+    @property
+    def method(self) -> SearchMethod:
+        """Which algorithm these are the settings of."""
+        return SearchMethod.GENETIC
 
-class GeneticState(NamedTuple):
-    """All that the generations to come follow from.
-
-    Attributes
-    ----------
-    number : of the generation that was evaluated last.
-    designs : (P, D) — the population after selection, in its order.
-    scores : (P, 2) — total violation and objective of each.
-    random : state of the generator that DEAP draws from, as `random.getstate` has it.
-    """
-
-    number: int
-    designs: Array
-    scores: Array
-    random: tuple[Any, ...]
-
-    def plain(self) -> dict[str, Any]:
-        """As lists of numbers, which JSON can hold; `from_plain` reverses it exactly."""
-        version, words, gauss = self.random
-        return {
-            "number": self.number,
-            "designs": self.designs.tolist(),
-            "scores": self.scores.tolist(),
-            "random": [version, list(words), gauss],
-        }
-
-    @classmethod
-    def from_plain(cls, data: dict[str, Any]) -> GeneticState:
-        """Restore a state from what `plain` gave.
+    def begin(
+        self, *, lower: Array, upper: Array, rng: np.random.Generator, start: Array | None
+    ) -> GeneticPopulation:
+        """Begin a population anywhere in the box.
 
         Parameters
         ----------
-        data : from `plain`.
+        lower, upper : (D,) — the box.
+        rng : draws the first designs and seeds the population's own stream; not kept.
+        start : (P0, D) — designs that join the first ones, within the box.
+        """
+        first = rng.uniform(lower, upper, size=(self.population, lower.size))
+        if start is not None:
+            known = np.clip(start[: self.population], lower, upper)
+            first[: len(known)] = known
+        source = random.Random(int(rng.integers(2**63)))  # noqa: S311 - DEAP draws from it
+        children = [Individual(genes) for genes in first.tolist()]
+        return GeneticPopulation(self, lower, upper, [], source, children)
+
+    def restore(self, data: dict[str, Any], *, lower: Array, upper: Array) -> GeneticPopulation:
+        """Restore a population from `GeneticPopulation.plain`.
+
+        Parameters
+        ----------
+        data : the plain data.
+        lower, upper : (D,) — the box.
         """
         version, words, gauss = data["random"]
-        return cls(
-            number=int(data["number"]),
-            designs=np.array(data["designs"], dtype=np.float64),
-            scores=np.array(data["scores"], dtype=np.float64),
-            random=(version, tuple(words), gauss),
-        )
+        source = random.Random()  # noqa: S311
+        source.setstate((version, tuple(words), gauss))
+        individuals = [Individual(genes) for genes in data["designs"]]
+        if data["scores"] is None:  # a new beginning, not scored yet
+            return GeneticPopulation(self, lower, upper, [], source, individuals)
+        for individual, scores in zip(individuals, data["scores"], strict=True):
+            individual.fitness.values = tuple(scores)
+        return GeneticPopulation(self, lower, upper, individuals, source, [])
 
 
-class Generation(NamedTuple):
-    """One evaluated generation.
-
-    Attributes
-    ----------
-    number : 0 for the first.
-    designs : (P, D) — its individuals.
-    evaluation : their scores.
-    state : from which the search can go on.
-    """
-
-    number: int
-    designs: Array
-    evaluation: Evaluation
-    state: GeneticState
-
-
-class _Fitness(base.Fitness):  # type: ignore[misc]  # DEAP is untyped
+class Fitness(base.Fitness):  # type: ignore[misc]  # DEAP is untyped
     """(total violation, objective), compared in this order: Deb's feasibility rules.
 
     A feasible individual has violation 0, so it beats every infeasible one; two feasible ones
@@ -110,97 +97,114 @@ class _Fitness(base.Fitness):  # type: ignore[misc]  # DEAP is untyped
     weights = (-1.0, -1.0)
 
 
-class _Individual(list[float]):
-    def __init__(self, genes: list[float]) -> None:
-        super().__init__(genes)
-        self.fitness = _Fitness()
-
-
-def generations(
-    evaluate: Callable[[Array], Evaluation],
-    *,
-    lower: Array,
-    upper: Array,
-    settings: GeneticSettings,
-    rng: np.random.Generator,
-    start: Array | None = None,
-    state: GeneticState | None = None,
-) -> Iterator[Generation]:
-    """Run the genetic algorithm, yielding each generation as it is evaluated.
+class Individual(list[float]):
+    """A design as DEAP takes it: a list of genes with a fitness.
 
     Parameters
     ----------
-    evaluate : scores (P, D) designs in one call.
-    lower, upper : (D,) — the box of the designs.
-    settings : of the algorithm.
-    rng : the only source of randomness.
-    start : (P0, D) — designs that join the first generation, within the box.
-    state : of an earlier run with the same arguments, which goes on after that generation; `rng`
-        and `start` are then not used.
+    genes : the D design variables.
+    """
 
-    Yields
-    ------
-    Generation — `settings.generations` + 1 of them, less those that `state` has behind it.
+    def __init__(self, genes: list[float]) -> None:
+        super().__init__(genes)
+        self.fitness = Fitness()
+
+
+@dataclass
+class GeneticPopulation:
+    """A population of the genetic algorithm.
+
+    Attributes
+    ----------
+    settings : of the algorithm.
+    lower, upper : (D,) — the box.
+    members : the population after selection; empty before the first is scored.
+    source : what DEAP draws from.
+    children : proposed and not scored yet.
 
     References
     ----------
     Deb 2000, doi:10.1016/S0045-7825(99)00389-8 (feasibility rules); Deb and Agrawal 1995
     (simulated binary crossover); Fortin et al. 2012 (DEAP).
     """
-    source = random.Random()  # noqa: S311 - DEAP draws from `random`
-    if state is None:
-        first = rng.uniform(lower, upper, size=(settings.population, lower.size))
-        if start is not None:
-            known = np.clip(start[: settings.population], lower, upper)
-            first[: len(known)] = known
-        population = [_Individual(genes) for genes in first.tolist()]
-        source.seed(int(rng.integers(2**63)))
-        designs, evaluation = _score(population, evaluate)
-        state = _state(0, population, source)
-        yield Generation(0, designs, evaluation, state)
-    else:
-        population = _population(state)
-        source.setstate(state.random)
-    low, up = lower.tolist(), upper.tolist()
-    for number in range(state.number + 1, settings.generations + 1):
-        with _deap_draws_from(source):
-            children = _children(population, low, up, settings)
-        elite = tools.selBest(population, settings.elite)
-        designs, evaluation = _score(children, evaluate)
-        survivors = tools.selBest(children, len(children) - len(elite))
-        population = [*elite, *survivors]
-        yield Generation(number, designs, evaluation, _state(number, population, source))
 
+    settings: GeneticSettings
+    lower: Array
+    upper: Array
+    members: list[Individual]
+    source: random.Random
+    children: list[Individual]
 
-def _state(number: int, population: list[_Individual], source: random.Random) -> GeneticState:
-    scores = np.array([individual.fitness.values for individual in population])
-    return GeneticState(number, np.array(population), scores, source.getstate())
+    def propose(self) -> Array:
+        """Children of the population; the first designs themselves at the beginning."""
+        if self.members:
+            with _deap_draws_from(self.source):
+                self.children = _children(
+                    self.members, self.lower.tolist(), self.upper.tolist(), self.settings
+                )
+        return np.array(self.children)
 
+    def learn(self, evaluation: Evaluation) -> None:
+        """Let the best of the children, and the elite of their parents, survive.
 
-def _population(state: GeneticState) -> list[_Individual]:
-    population = [_Individual(genes) for genes in state.designs.tolist()]
-    for individual, scores in zip(population, state.scores.tolist(), strict=True):
-        individual.fitness.values = tuple(scores)
-    return population
+        Parameters
+        ----------
+        evaluation : of the children.
+        """
+        for individual, violation, objective in zip(
+            self.children, evaluation.total_violation, evaluation.objectives, strict=True
+        ):
+            individual.fitness.values = (float(violation), float(objective))
+        if not self.members:
+            self.members = self.children
+            return
+        elite = tools.selBest(self.members, self.settings.elite)
+        survivors = tools.selBest(self.children, len(self.children) - len(elite))
+        self.members = [*elite, *survivors]
 
+    @property
+    def collapsed(self) -> bool:
+        """Whether all designs agree to a thousandth of the box in every variable."""
+        spread = np.ptp(np.array(self.members), axis=0)
+        return bool(np.all(spread < COLLAPSED * (self.upper - self.lower)))
 
-def _score(
-    population: list[_Individual], evaluate: Callable[[Array], Evaluation]
-) -> tuple[Array, Evaluation]:
-    designs = np.array(population)
-    evaluation = evaluate(designs)
-    for individual, violation, objective in zip(
-        population, evaluation.total_violation, evaluation.objectives, strict=True
-    ):
-        individual.fitness.values = (float(violation), float(objective))
-    return designs, evaluation
+    @property
+    def champion(self) -> tuple[Array, Array]:
+        """The best design and its scores."""
+        best = tools.selBest(self.members, 1)[0]
+        return np.array(best), np.array(best.fitness.values)
+
+    def welcome(self, design: Array, scores: Array) -> None:
+        """Let a design take the place of the worst one.
+
+        Parameters
+        ----------
+        design : (D,)
+        scores : its (violation, objective).
+        """
+        worst = tools.selWorst(self.members, 1)[0]
+        guest = Individual(design.tolist())
+        guest.fitness.values = tuple(scores.tolist())
+        if guest.fitness > worst.fitness:
+            place = next(i for i, member in enumerate(self.members) if member is worst)
+            self.members[place] = guest
+
+    def plain(self) -> dict[str, Any]:
+        """Designs, scores and random state, as plain data."""
+        version, words, gauss = self.source.getstate()
+        scores = [list(member.fitness.values) for member in self.members]
+        return {
+            "designs": [list(one) for one in self.members or self.children],
+            "scores": scores or None,
+            "random": [version, list(words), gauss],
+        }
 
 
 def _children(
-    population: list[_Individual], low: list[float], up: list[float], settings: GeneticSettings
-) -> list[_Individual]:
+    population: list[Individual], low: list[float], up: list[float], settings: GeneticSettings
+) -> list[Individual]:
     parents = tools.selTournament(population, len(population), tournsize=settings.tournament)
-    children = [_Individual(list(parent)) for parent in parents]
+    children = [Individual(list(parent)) for parent in parents]
     for one, two in zip(children[::2], children[1::2], strict=False):
         if random.random() < settings.crossover_probability:  # noqa: S311
             tools.cxSimulatedBinaryBounded(one, two, eta=settings.crossover_eta, low=low, up=up)

@@ -1,4 +1,8 @@
-"""The search: a genetic algorithm over the whole space, then local refinement of its best."""
+"""The search: populations over the whole space, then local refinement of the best designs.
+
+Refined are the best, mutually distant designs that the populations found, and then structured
+designs (dumbbells and ladders), so that the result depends on the seed as little as possible.
+"""
 
 from __future__ import annotations
 
@@ -6,18 +10,20 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .design_space import DesignSpace
-from .genetic import Generation, GeneticSettings, GeneticState, generations
+from .genetic import GeneticSettings
 from .gradient import DesignSlopes, design_slopes
+from .islands import Algorithm, Generation, IslandSettings, SearchMethod, generations
 from .kernel import CompiledEvaluator, compiled_evaluator
 from .problem import Evaluation, Problem
 from .progress import Candidate, Forgetful, GenerationRecord, Keeper, Step
 from .refinement import refine
+from .structured import structured_designs
 
 Array = NDArray[np.float64]
 
@@ -38,12 +44,16 @@ class SearchSettings(NamedTuple):
 
     Attributes
     ----------
-    genetic : of the genetic algorithm.
-    refinements : how many of the best, mutually distant designs are refined; 0 for none.
+    algorithm : of the populations: genetic, differential evolution or CMA-ES.
+    refinements : how many of their best, mutually distant designs are refined; 0 for none.
+    islands : how many populations search side by side.
+    structured : how many structured designs are refined besides; 0 for none.
     """
 
-    genetic: GeneticSettings = GeneticSettings()
+    algorithm: Algorithm = GeneticSettings()
     refinements: int = 16
+    islands: IslandSettings = IslandSettings()
+    structured: int = 4
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,20 +65,29 @@ class SearchResult:
     design : (D,) — the best design; of the least violation if none is feasible.
     objective : its region height error [m].
     feasible : whether it keeps every limit.
-    genetic_objective : region height error of the genetic algorithm's own best [m]; `inf` if none
-        was feasible.
+    population_objective : region height error of the best that the populations found by
+        themselves [m]; `inf` if none was feasible.
+    refined_objective : the same after the refinement of their best, before structured designs [m].
     evaluations : formations scored.
     history : a line each generation.
     interrupted : whether the search was stopped before its end.
+    settings : that it was run with.
     """
 
     design: Array
     objective: float
     feasible: bool
-    genetic_objective: float
+    population_objective: float
+    refined_objective: float
     evaluations: int
     history: tuple[GenerationRecord, ...]
     interrupted: bool
+    settings: SearchSettings
+
+    @property
+    def method(self) -> SearchMethod:
+        """Algorithm of the populations."""
+        return self.settings.algorithm.method
 
     @property
     def refined(self) -> bool:
@@ -109,7 +128,9 @@ def search(
     by a KeyboardInterrupt, it is the best so far, marked `interrupted`.
     """
     run = _Search(problem, space, on_generation, should_stop, keeper or Forgetful())
-    if settings.genetic.population * settings.genetic.generations >= _COMPILED_FROM:
+    algorithm = settings.algorithm
+    length = algorithm.population * algorithm.generations * settings.islands.number
+    if length >= _COMPILED_FROM:
         run.compiled = compiled_evaluator(problem, space)
     state, refined = run.restore()
     interrupted = False
@@ -118,7 +139,8 @@ def search(
             run.evaluate,
             lower=-space.upper,
             upper=space.upper,
-            settings=settings.genetic,
+            algorithm=algorithm,
+            islands=settings.islands,
             rng=rng,
             start=start,
             state=state,
@@ -129,8 +151,8 @@ def search(
     except KeyboardInterrupt:
         interrupted = True
     if not interrupted:
-        interrupted = run.refine_best(settings.refinements, refined)
-    return run.result(interrupted=interrupted)
+        interrupted = run.refine_best(settings, refined)
+    return run.result(settings, interrupted=interrupted)
 
 
 @dataclass
@@ -145,7 +167,8 @@ class _Search:
     evaluations: int = 0
     history: list[GenerationRecord] = field(default_factory=list)
     candidates: list[Candidate] = field(default_factory=list)
-    genetic_objective: float = math.inf
+    population_objective: float = math.inf
+    refined_objective: float = math.inf
     compiled: CompiledEvaluator | None = None
     _best: Candidate | None = None
 
@@ -169,7 +192,7 @@ class _Search:
             return self.compiled.evaluate(designs)
         return self.problem.evaluate(self.space.states(designs))
 
-    def restore(self) -> tuple[GeneticState | None, list[Step]]:
+    def restore(self) -> tuple[dict[str, Any] | None, list[Step]]:
         """Take over what the keeper holds; return the last generation, and the refined after it."""
         steps, state = self.keeper.restore()
         refined = []
@@ -178,7 +201,7 @@ class _Search:
                 refined.append(step)
             else:
                 self._take(step)
-        return None if state is None else GeneticState.from_plain(state), refined
+        return state, refined
 
     def record(self, generation: Generation) -> None:
         evaluation = generation.evaluation
@@ -201,23 +224,27 @@ class _Search:
             feasible_fraction=float(feasible.mean()),
         )
         step = Step(self.evaluations, candidates, record)
-        self.keeper.keep(step.plain(), generation.state.plain())
+        self.keeper.keep(step.plain(), generation.state)
         self._take(step)
 
-    def refine_best(self, count: int, refined: list[Step]) -> bool:
-        """Refine the best designs; return whether that was interrupted.
+    def refine_best(self, settings: SearchSettings, refined: list[Step]) -> bool:
+        """Refine the best designs and structured ones; return whether that was interrupted.
 
         The first are already `refined` where the search goes on after an earlier run.
         """
-        candidates = self._distant_candidates(count)
         known = iter(refined)
+        candidates = self._distant_candidates(settings.refinements)
         interrupted = any(self._refine(design, next(known, None)) for design in candidates)
         # The cross-track sign is a choice, which no descent crosses: the best is tried with the
         # other one too.
         mirrored = self.space.mirrored(self._best[2]) if candidates and self._best else None
         if mirrored is not None and not interrupted:
             interrupted = self._refine(mirrored, next(known, None))
-        if candidates:
+        self.refined_objective = self.best_objective if self.best_feasible else np.inf
+        structured = self._structured(0 if interrupted else settings.structured)
+        if not interrupted:
+            interrupted = any(self._refine(design, next(known, None)) for design in structured)
+        if len(candidates) + len(structured):
             self._append(
                 GenerationRecord(
                     generation=self.history[-1].generation + 1,
@@ -229,6 +256,12 @@ class _Search:
                 )
             )
         return interrupted
+
+    def _structured(self, count: int) -> Array:
+        """The best dumbbells and ladders, (≤ count, D)."""
+        if count == 0:
+            return np.empty((0, self.space.dimension))
+        return structured_designs(self.problem, self.space, count=count, evaluate=self.evaluate)
 
     def _refine(self, start: Array, known: Step | None) -> bool:
         """Refine one design, unless its outcome is known; return whether that was interrupted."""
@@ -251,7 +284,7 @@ class _Search:
         self._take(step)
         return outcome.interrupted
 
-    def result(self, *, interrupted: bool) -> SearchResult:
+    def result(self, settings: SearchSettings, *, interrupted: bool) -> SearchResult:
         if self._best is None:  # interrupted before the first generation
             raise KeyboardInterrupt
         _, objective, design = self._best
@@ -259,10 +292,12 @@ class _Search:
             design=design,
             objective=objective,
             feasible=self.best_feasible,
-            genetic_objective=self.genetic_objective,
+            population_objective=self.population_objective,
+            refined_objective=self.refined_objective,
             evaluations=self.evaluations,
             history=tuple(self.history),
             interrupted=interrupted,
+            settings=settings,
         )
 
     def _score(self, designs: Array) -> tuple[Array, Array]:
@@ -290,7 +325,7 @@ class _Search:
                 self._best = candidate
         if step.record is not None:
             self.candidates += step.candidates
-            self.genetic_objective = step.record.best
+            self.population_objective = step.record.best
             self._append(step.record)
 
     def _append(self, record: GenerationRecord) -> None:

@@ -10,14 +10,14 @@ luck no more (docs/certificate.md).
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from itertools import permutations
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .design_space import DesignSpace
-from .problem import Problem
+from .problem import Evaluation, Problem
 from .projection import plane_radius, projection
 
 Array = NDArray[np.float64]
@@ -38,7 +38,13 @@ _APART = 0.05
 """Designs that are returned differ by this in their largest coordinate, in parts of the box."""
 
 
-def structured_designs(problem: Problem, space: DesignSpace, *, count: int = 8) -> Array:
+def structured_designs(
+    problem: Problem,
+    space: DesignSpace,
+    *,
+    count: int = 8,
+    evaluate: Callable[[Array], Evaluation] | None = None,
+) -> Array:
     """Return the best dumbbells and ladders, each shape with the others that are well away from it.
 
     Parameters
@@ -46,6 +52,7 @@ def structured_designs(problem: Problem, space: DesignSpace, *, count: int = 8) 
     problem : what is minimized, and within which limits.
     space : the designs that are searched.
     count : how many designs at most.
+    evaluate : scores (P, D) designs instead of `problem`, for a search that counts them.
 
     Returns
     -------
@@ -54,11 +61,12 @@ def structured_designs(problem: Problem, space: DesignSpace, *, count: int = 8) 
     """
     if space.satellites < 2:
         return np.empty((0, space.dimension))
+    score = evaluate or (lambda designs: problem.evaluate(space.states(designs)))
     candidates, violation, objective = [], [], []
     for planes, sign in _shapes(problem, space):
         z0, rate = planes[..., 0], planes[..., 1] * space.mean_motion
         designs = space.encode(z0, rate, np.full(len(planes), float(sign)))
-        evaluation = problem.evaluate(space.states(designs))
+        evaluation = score(designs)
         order = np.lexsort((evaluation.objectives, evaluation.total_violation))[: 40 * count]
         candidates.append(designs[order])
         violation.append(evaluation.total_violation[order])

@@ -86,7 +86,9 @@ def optimize_json(result: OptimizeResult) -> Json:
         "best": assessment_json(problem, result.best),
         "compare": [assessment_json(problem, one) for one in result.compare],
         "search": {
-            "genetic_best_m": finite(search.genetic_objective),
+            "method": search.method.value,
+            "genetic_best_m": finite(search.population_objective),
+            "refined_best_m": finite(search.refined_objective),
             "best_m": finite(search.objective),
             "feasible": search.feasible,
             "interrupted": search.interrupted,

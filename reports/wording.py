@@ -148,6 +148,19 @@ def ambiguity(value: float) -> str:
     return "> 10⁵" if value > 1e5 else significant(value, 4)
 
 
+def method_name(method: str) -> str:
+    """Search algorithm in words.
+
+    >>> method_name("genetic"), method_name("cma_es")
+    ('genetic algorithm', 'CMA-ES')
+    """
+    return {
+        "genetic": "genetic algorithm",
+        "differential_evolution": "differential evolution",
+        "cma_es": "CMA-ES",
+    }[method]
+
+
 def source_name(source: str) -> str:
     """Error source in words."""
     return _SOURCES.get(source, source.replace("_", " "))

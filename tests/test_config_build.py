@@ -34,7 +34,7 @@ from insar import (
     critical_baseline,
     pair_geometry,
 )
-from optimize import assess
+from optimize import SearchMethod, assess
 
 MINIMAL = {
     "orbit": {"altitude_km": 514, "inclination_deg": 97.44},
@@ -261,8 +261,26 @@ def test_search_settings_are_passed_on():
     block = {"population": 8, "generations": 3, "refinements": 0, "mutation_eta": 7, "elite": 2}
     settings_ = build_optimize(study(search=block)).settings
     assert settings_.refinements == 0
-    assert settings_.genetic[:2] == (8, 3)
-    assert (settings_.genetic.mutation_eta, settings_.genetic.elite) == (7.0, 2)
+    assert settings_.algorithm[:2] == (8, 3)
+    assert (settings_.algorithm.mutation_eta, settings_.algorithm.elite) == (7.0, 2)
+
+
+@pytest.mark.parametrize("method", list(SearchMethod))
+def test_the_method_of_the_search_is_passed_on(method):
+    block = {
+        "method": str(method),
+        "population": 8,
+        "generations": 3,
+        "islands": 3,
+        "migration_interval": 2,
+        "restart": False,
+        "structured_starts": 5,
+    }
+    settings_ = build_optimize(study(search=block)).settings
+    assert settings_.algorithm.method is method
+    assert settings_.algorithm[:2] == (8, 3)
+    assert settings_.islands == (3, 2, False)
+    assert settings_.structured == 5
 
 
 # --- given formations ----------------------------------------------------------------------------

@@ -592,6 +592,21 @@ def test_a_study_that_no_memory_holds_is_refused(read):
     assert shown.startswith(place(text, "scene:"))
     assert "has 1000 segments, which with 3 images and 10000 formations at a time is too" in shown
     assert "may reach 5e+07; take fewer segments, or a smaller search.population" in shown
+    islands = changed(text, "population: 10000", "population: 100\n  islands: 100")
+    assert "and 10000 formations at a time is too" in read(islands)
+
+
+def test_settings_of_another_algorithm_are_refused(read):
+    text = changed(THREE_SAT, "method: genetic ", "method: cma_es\n  mutation_eta: 7 #")
+    assert (
+        "search.mutation_eta = 7 is a setting of the genetic algorithm, and method is cma_es; "
+        "remove this key, or set method: genetic"
+    ) in read(text)
+    text = changed(THREE_SAT, "method: genetic ", "method: differential_evolution #")
+    assert "must be at least 5 for differential_evolution" in read(
+        changed(text, "population: 60", "population: 4")
+    )
+    assert "did you mean" in read(changed(THREE_SAT, "method: genetic ", "method: genetik #"))
 
 
 def test_two_compared_formations_of_one_label_are_refused(read):

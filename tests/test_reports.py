@@ -449,7 +449,7 @@ def test_page_says_once_what_the_verdict_says() -> None:
 
 def test_refinement_of_a_search_that_found_nothing_itself_is_worded() -> None:
     found = optimized(make_problem())
-    late = dataclasses.replace(found.search, genetic_objective=math.inf)
+    late = dataclasses.replace(found.search, population_objective=math.inf)
     text = Page(rendered_html(dataclasses.replace(found, search=late), study_info())).text
     assert "The genetic algorithm alone found none that keeps every limit" in text
 

@@ -43,7 +43,7 @@ from optimize import (
     findings,
     search,
 )
-from optimize.genetic import generations
+from optimize.islands import generations
 
 PUBLISHED = tomllib.loads(
     (Path(__file__).parent / "published" / "error_model.toml").read_text(encoding="utf-8")
@@ -239,7 +239,7 @@ def test_history_tells_the_whole_search(realistic):
     best = [line.best for line in result.history]
     assert best == sorted(best, reverse=True)
     assert result.history[-1].evaluations == result.evaluations
-    assert result.objective == best[-1] <= result.genetic_objective == best[-2]
+    assert result.objective == best[-1] <= result.population_objective == best[-2]
 
 
 def test_each_generation_is_scored_in_one_call(realistic, monkeypatch):
@@ -252,7 +252,9 @@ def test_each_generation_is_scored_in_one_call(realistic, monkeypatch):
         return original(self, states)
 
     monkeypatch.setattr(Problem, "evaluate", counted)
-    settings = SearchSettings(GeneticSettings(population=20, generations=5), refinements=0)
+    settings = SearchSettings(
+        GeneticSettings(population=20, generations=5), refinements=0, structured=0
+    )
     search(problem, space, settings=settings, rng=np.random.default_rng(1))
     assert sizes == [20] * 6
 
@@ -268,7 +270,7 @@ def test_feasible_designs_come_first():
     settings = GeneticSettings(population=30, generations=60)
     upper = np.array([5.0, 5.0])
     *_, last = generations(
-        evaluate, lower=-upper, upper=upper, settings=settings, rng=np.random.default_rng(1)
+        evaluate, lower=-upper, upper=upper, algorithm=settings, rng=np.random.default_rng(1)
     )
     assert last.evaluation.feasible.mean() > 0.3
     best = last.designs[last.evaluation.feasible]
@@ -300,7 +302,7 @@ def test_infeasible_limits_end_with_the_least_violation(realistic):
     problem, space = realistic(max_radius=40.0)
     result = search(problem, space, settings=QUICK, rng=np.random.default_rng(1))
     assert not result.feasible
-    assert result.genetic_objective == np.inf
+    assert result.population_objective == np.inf
     best = assess(problem, space.states(result.design), label="best", names=space.names)
     assert not best.feasible
     separation = next(r for r in best.constraints if r.limit.name.startswith("separation"))
@@ -353,7 +355,7 @@ def test_interrupted_refinement_keeps_what_it_reached(realistic):
     )
     assert result.interrupted
     assert result.refined
-    assert result.objective < result.genetic_objective
+    assert result.objective < result.population_objective
     assert result.history[-1].best == result.objective
     assert result.history[-1].evaluations == result.evaluations
 

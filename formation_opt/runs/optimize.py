@@ -33,7 +33,7 @@ def run(study: OptimizeStudy, setup: OptimizeSetup, options: Options) -> Outcome
     options : of the command line.
     """
     seed = study.search.seed if options.seed is None else options.seed
-    options.on_start(setup.settings.genetic.generations)
+    options.on_start(setup.settings.algorithm.generations)
     found = search(
         setup.problem,
         setup.space,

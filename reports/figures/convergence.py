@@ -63,8 +63,8 @@ def _paint_errors(axes: Axes, search: SearchResult) -> None:
         color=color(0),
         drawstyle="steps-post",
         marker="o" if len(genetic) == 1 else "",
-        label=f"best feasible: {significant(search.genetic_objective, 4)} m"
-        if np.isfinite(search.genetic_objective)
+        label=f"best feasible: {significant(search.population_objective, 4)} m"
+        if np.isfinite(search.population_objective)
         else "best feasible",
     )
     axes.set_ylabel("height error of the region [m]")

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from insar import BaselineDecorrelation, HeldConstant, Weighting
 from insar.observe import Observation
 from insar.observe.agile.staring import StaringScene
-from optimize import Assessment, Problem, SearchResult
+from optimize import Assessment, Problem, SearchMethod, SearchResult
 
 from ..document import Block, Equation, Paragraph, Reference, References, Section, Strong, Symbol
 from .citations import Citations
@@ -41,6 +41,16 @@ _DEB = Reference(
     "K. Deb, “An efficient constraint handling method for genetic algorithms,” Comput. Methods "
     "Appl. Mech. Eng. 186(2–4), 311–338, 2000.",
     "10.1016/S0045-7825(99)00389-8",
+)
+_STORN = Reference(
+    "R. Storn and K. Price, “Differential evolution: a simple and efficient heuristic for global "
+    "optimization over continuous spaces,” J. Global Optim. 11, 341–359, 1997.",
+    "10.1023/A:1008202821328",
+)
+_HANSEN = Reference(
+    "N. Hansen and A. Ostermeier, “Completely derandomized self-adaptation in evolution "
+    "strategies,” Evol. Comput. 9(2), 159–195, 2001.",
+    "10.1162/106365601750190398",
 )
 _FORTIN = Reference(
     "F.-A. Fortin et al., “DEAP: evolutionary algorithms made easy,” J. Mach. Learn. Res. 13, "
@@ -118,16 +128,30 @@ def methods_section(
     if search is not None:
         blocks.append(
             Paragraph(
-                f"The search is a genetic algorithm (DEAP {cite(_FORTIN)}) that ranks by "
-                f"feasibility first {cite(_DEB)}; its best, mutually distant designs are then "
-                "refined by sequential quadratic programming (SLSQP). How far the "
-                "result is from the best possible is proved apart. Only differences of the "
-                "satellites' positions enter: other formations with the same "
-                "projected baselines are as good, so another seed may return other "
-                "orbits with the same error."
+                f"{_algorithm(search, cite)} It ranks by feasibility first {cite(_DEB)}; its best, "
+                "mutually distant designs, and structured ones (dumbbells and ladders), are then "
+                "refined by sequential quadratic programming (SLSQP). How far the result is from "
+                "the best possible is proved apart. Only differences of the satellites' positions "
+                "enter: other formations with the same projected baselines are as good, so another "
+                "seed may return other orbits with the same error."
             )
         )
     return Section("methods", "How it was computed", (*blocks, References(tuple(cite.works))))
+
+
+def _algorithm(search: SearchResult, cite: Citations) -> str:
+    """The algorithm of the populations, and how many there are."""
+    count = search.settings.islands.number
+    islands = "" if count == 1 else f", on {count} islands that exchange their best designs"
+    if search.method is SearchMethod.DIFFERENTIAL_EVOLUTION:
+        return f"The search is differential evolution {cite(_STORN)}{islands}."
+    if search.method is SearchMethod.CMA_ES:
+        apart = "" if count == 1 else f", {count} times side by side"
+        return (
+            f"The search adapts the covariance of a normal distribution (CMA-ES {cite(_HANSEN)}, "
+            f"DEAP {cite(_FORTIN)}){apart}."
+        )
+    return f"The search is a genetic algorithm (DEAP {cite(_FORTIN)}){islands}."
 
 
 def _motion(formations: Sequence[Assessment], cite: Citations) -> tuple[Block, ...]:

@@ -7,7 +7,7 @@ from typing import Any
 
 import pandas as pd
 
-from optimize import Assessment, OptimizeResult
+from optimize import Assessment, OptimizeResult, SearchResult
 
 from ..document import Block, Document, Figure, Paragraph, Section
 from ..figures.convergence import convergence_figure
@@ -15,7 +15,7 @@ from ..json_result import optimize_json
 from ..reading import Shown
 from ..study import Provenance, StudyInfo
 from ..tables import formation_frame, height_error_frame
-from ..wording import counted, meters
+from ..wording import counted, meters, method_name
 from . import sections
 from .certificate import certificate_section
 from .closing import closing_sections, formation_setting
@@ -90,19 +90,7 @@ def _convergence_section(result: OptimizeResult) -> Section:
     text += "."
     blocks: list[Block] = []
     if search.refined:
-        before, after = search.genetic_objective, search.objective
-        if search.feasible:
-            alone = (
-                f"reached {meters(before)}"
-                if math.isfinite(before)
-                else "found none that keeps every limit"
-            )
-            text += (
-                f" The genetic algorithm alone {alone}; local refinement of its best, mutually "
-                f"distant designs brought {meters(after)}."
-            )
-        else:
-            text += " Neither the genetic algorithm nor the refinement met every limit."
+        text += _found_by(search)
     elif not search.interrupted:
         text += " The best was not refined."
     if search.interrupted:
@@ -120,3 +108,26 @@ def _convergence_section(result: OptimizeResult) -> Section:
             )
         )
     return Section("convergence", "Convergence of the search", tuple(blocks))
+
+
+def _found_by(search: SearchResult) -> str:
+    """What each part of the search contributed."""
+    algorithm = method_name(search.method)
+    if not search.feasible:
+        return f" Neither the {algorithm} nor the refinement met every limit."
+    alone, refined = search.population_objective, search.refined_objective
+    text = (
+        f" The {algorithm} alone "
+        + (
+            f"reached {meters(alone)}"
+            if math.isfinite(alone)
+            else "found none that keeps every limit"
+        )
+        + "; local refinement of its best, mutually distant designs "
+        + (f"brought {meters(refined)}." if math.isfinite(refined) else "did not find one either.")
+    )
+    if search.settings.structured == 0 or search.interrupted:
+        return text
+    if search.objective < (1.0 - 1e-6) * refined:
+        return f"{text} Refined dumbbells and ladders brought {meters(search.objective)}."
+    return f"{text} Refined dumbbells and ladders found nothing better."
