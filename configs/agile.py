@@ -20,6 +20,8 @@ Duration = Annotated[Number, Field(gt=0, le=3_600)]
 Samples = Annotated[Whole, Field(ge=3, le=200_001)]
 PointingError = Annotated[Number, Field(ge=0, le=5)]
 _Offset = Annotated[Number, Field(ge=-100, le=100)]
+_NEAR = "Smallest incidence at zero Doppler at which a pass counts"
+_NearIncidence = Annotated[Number, Field(ge=0, le=85)]
 Beamwidth = Annotated[Number, Field(gt=0, le=30)]
 
 
@@ -60,8 +62,10 @@ class PassBlock(Block):
         le=10_000,
         description="Which of the passes that reach the place is taken, counted from 1.",
     )
-    near_incidence_deg: Incidence = Field(
-        default=20.0, description="Smallest incidence at zero Doppler at which a pass counts."
+    near_incidence_deg: _NearIncidence = Field(
+        default=20.0,
+        description=f"{_NEAR}; 0 counts one right overhead too, where range does not resolve the "
+        "ground.",
     )
     far_incidence_deg: Incidence = Field(
         default=55.0, description="Largest incidence at zero Doppler at which a pass counts."
@@ -123,6 +127,7 @@ class SpotlightSceneBlock(SpotlightBlock):
         description="Moments of the imaging time at which the height error is computed, equally "
         "spaced, both ends included.",
     )
+    near_incidence_deg: Incidence = Field(default=20.0, description=f"{_NEAR}.")
     slope_deg: Slope = Field(
         default=0.0, description="Slope of the terrain in range, positive towards the radar."
     )
@@ -142,6 +147,7 @@ class VideoSceneBlock(PassBlock):
         description="Moments of the film at which the height error is computed, equally spaced, "
         "both ends included.",
     )
+    near_incidence_deg: Incidence = Field(default=20.0, description=f"{_NEAR}.")
     slope_deg: Slope = Field(
         default=0.0, description="Slope of the terrain in range, positive towards the radar."
     )

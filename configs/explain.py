@@ -173,20 +173,17 @@ def _unknown_key(path: KeyPath, schema: Schema) -> str:
     key, parent = str(path[-1]), path[:-1]
     known = list(block_at(schema, parent))
     where = show_path(parent) if parent else "the study"
-    home = _home(key, schema)
-    hint = f"it belongs under {home!r}; " if home else did_you_mean(key, known)
+    homes = _homes(key, schema)
+    named = " or ".join(repr(home) for home in homes)
+    hint = f"it belongs under {named}; " if homes else did_you_mean(key, known)
     return f"{show_path(path)} is not a known key; {hint}the keys of {where} are {', '.join(known)}"
 
 
-def _home(key: str, schema: Schema) -> str | None:
-    """The block of a study, or the block in one, that has a key."""
-    for outer in block_at(schema, ()):
-        if key in block_at(schema, (outer,)):
-            return outer
-        for inner in block_at(schema, (outer,)):
-            if key in block_at(schema, (outer, inner)):
-                return f"{outer}.{inner}"
-    return None
+def _homes(key: str, schema: Schema) -> list[str]:
+    """The blocks of a study, and the blocks in one, that have a key."""
+    blocks = [(outer,) for outer in block_at(schema, ())]
+    nested = [(*outer, inner) for outer in blocks for inner in block_at(schema, outer)]
+    return [".".join(path) for path in (*blocks, *nested) if key in block_at(schema, path)]
 
 
 def _missing(path: KeyPath, allowed: Schema, schema: Schema) -> str:

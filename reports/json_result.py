@@ -50,6 +50,7 @@ def result_json(body: Json, *, study: StudyInfo, provenance: Provenance) -> byte
             "description": study.description,
             "config_sha256": study.config_sha256,
             "inputs": [{"file": name, "sha256": digest} for name, digest in study.inputs],
+            "inferred": [{"key": key, "value": value} for key, value in study.inferred],
         },
         "provenance": {
             "version": provenance.version,

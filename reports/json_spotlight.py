@@ -29,7 +29,12 @@ def spotlight_json(result: SpotlightResult) -> Json:
             "plan": _imaging_json(result.plan),
             "samples": len(result.times),
             "duration_s": finite(np.ptp(result.times)),
-            "maneuver": maneuver_json(result.profile, ("yaw", "pitch", "roll"), request.agility),
+            "maneuver": maneuver_json(
+                result.profile,
+                ("yaw", "pitch", "roll"),
+                request.agility,
+                pointing_reason(result.profile.outcome),
+            ),
             "solved_fraction": float(np.mean(result.profile.outcome == 0)),
             "reason": pointing_reason(result.profile.outcome),
             "aim_error": _aim_error(result.aim_error),
@@ -89,8 +94,18 @@ def plan_json(plan: PassPlan) -> Json:
     }
 
 
-def maneuver_json(profile: Profile, angles: Sequence[str], agility: Agility | None) -> Json:
-    """Ranges of the angles, largest rates and accelerations, and what is allowed."""
+def maneuver_json(
+    profile: Profile, angles: Sequence[str], agility: Agility | None, reason: str | None
+) -> Json:
+    """Ranges of the angles, largest rates and accelerations, and what is allowed.
+
+    Parameters
+    ----------
+    profile : the attitude.
+    angles : names of the Euler angles, in their sequence.
+    agility : what is allowed; None for anything.
+    reason : why samples have no attitude; None where all have.
+    """
     return {
         **{f"{name}_rad": _ends(getattr(profile, name)) for name in angles},
         "max_rate_orbit_rad_s": finite(largest(rate_of(profile.rate_orbit))),
@@ -99,10 +114,16 @@ def maneuver_json(profile: Profile, angles: Sequence[str], agility: Agility | No
         "max_acceleration_inertial_rad_s2": finite(largest(rate_of(profile.acceleration_inertial))),
         "rate_limit_rad_s": None if agility is None else _limit(agility.max_rate),
         "acceleration_limit_rad_s2": None if agility is None else _limit(agility.max_acceleration),
-        "rate_exceeded_fraction": float(np.mean(profile.rate_exceeded)),
-        "acceleration_exceeded_fraction": float(np.mean(profile.acceleration_exceeded)),
-        "singular_fraction": float(np.mean(profile.singular)),
+        "rate_exceeded_fraction": _known_share(profile, profile.rate_exceeded),
+        "acceleration_exceeded_fraction": _known_share(profile, profile.acceleration_exceeded),
+        "singular_fraction": _known_share(profile, profile.singular),
+        "reason": reason,
     }
+
+
+def _known_share(profile: Profile, mask: NDArray[np.bool_]) -> float | None:
+    """Of the samples that have an attitude; None where none has."""
+    return float(np.mean(mask[profile.solved])) if np.any(profile.solved) else None
 
 
 def _ends(values: Array) -> list[float | None]:

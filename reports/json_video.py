@@ -24,7 +24,12 @@ def video_json(result: VideoResult) -> Json:
             "duration_s": finite(request.duration),
             "yaw_law": request.yaw_law.value,
             "reference_time_s": finite(request.reference_time),
-            "maneuver": maneuver_json(result.profile, ("roll", "pitch", "yaw"), request.agility),
+            "maneuver": maneuver_json(
+                result.profile,
+                ("roll", "pitch", "yaw"),
+                request.agility,
+                staring_reason(result.profile.outcome),
+            ),
             "solved_fraction": float(np.mean(result.profile.outcome == 0)),
             "reason": staring_reason(result.profile.outcome),
             "frames": {

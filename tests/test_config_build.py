@@ -330,6 +330,7 @@ def test_the_shipped_examples_are_these():
         "liang2018_video",
         "lutan_1",
         "meng2003_yaw",
+        "simulate_jacksboro",
         "srtm_x",
         "tandem_l",
         "tandem_x",
@@ -338,6 +339,7 @@ def test_the_shipped_examples_are_these():
         "three_sat",
         "three_sat_real",
         "three_sat_spotlight",
+        "three_sat_video",
         "walker_coverage",
         "zhao2019_geosar",
     )

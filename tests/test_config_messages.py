@@ -67,7 +67,8 @@ IN_THREE_SAT = {
         "  looks: 16",
         "  prior_height_std_m: 4",
         "prior_height_std_m: 4",
-        "radar.prior_height_std_m is not a known key; it belongs under 'constraints.unwrapping';",
+        "radar.prior_height_std_m is not a known key; it belongs under 'refutation' or "
+        "'constraints.unwrapping';",
     ),
     "meters for kilometers": (
         "altitude_km: 514 ",
@@ -198,7 +199,7 @@ IN_THREE_SAT = {
         "kind: optimise",
         "optimise",
         "kind = 'optimise' must be one of optimize, evaluate, steering, spotlight, video, "
-        "coverage; did you mean 'optimize'?",
+        "coverage, simulate; did you mean 'optimize'?",
     ),
     "name that is no file name": (
         "name: three_sat ",
@@ -358,7 +359,7 @@ IN_THREE_SAT = {
         "snr_db: 10 ",
         "snr_db: 10\n  snr_db : 12 ",
         "snr_db : ",
-        "radar.snr_db is given twice, first in line 21; keep one",
+        "radar.snr_db is given twice, first in line 22; keep one",
     ),
     "tab as indentation": (
         "  altitude_km",

@@ -221,6 +221,22 @@ def test_a_formation_sees_the_place_from_the_whole_aperture():
     assert np.all(np.diff(ahead) < 0.0)
 
 
+def test_a_formation_films_the_place_of_the_other_example_for_longer():
+    still, film = (
+        build_optimize(load_study(example_path(name)).study).problem.scene
+        for name in ("three_sat_spotlight", "three_sat_video")
+    )
+    # The same pass: at zero Doppler, in the middle of both, the geometry is one.
+    for one in ("slant_range", "incidence", "look_angle"):
+        assert getattr(film, one)[6] == pytest.approx(getattr(still, one)[5], rel=1e-9)
+    np.testing.assert_allclose(film.times, np.arange(0, 130, 10), atol=1e-6)
+    # From zero Doppler on the range grows both ways: the height error of each frame is its own.
+    assert np.all(np.diff(film.slant_range[6:]) > 0)
+    assert np.all(np.diff(film.slant_range[:7]) < 0)
+    assert film.slant_range[0] > 1.15 * film.slant_range[6]
+    assert np.ptp(film.slant_range) > 10 * np.ptp(still.slant_range)
+
+
 def test_a_film_is_as_long_as_asked_for():
     block = {"target": ETNA, "duration_s": 60, "segments": 5, "slope_deg": 3}
     scene = formation(block, "video").problem.scene
@@ -327,7 +343,7 @@ WRONG = {
         "spotlight:                #",
         "spotlight cannot be used: the aim point is not imaged from 2016-06-30 23:50:00 UTC to "
         "2016-07-01 00:18:48 UTC: the nearest of 1 pass sees it at incidence 63.39°, outside "
-        "20.00° to 50.00°, too near to the horizon; search longer",
+        "20.00° to 50.00°, too near to the horizon; search longer, or allow other incidences",
     ),
     "wrong side": (
         HAN,

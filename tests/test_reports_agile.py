@@ -19,7 +19,7 @@ from formation import KeplerianOrbit, Trajectory, raan_from_longitude
 from insar import Claim, LookSide, Verdict
 from insar.observe.agile.agility import Agility
 from insar.observe.agile.spotlight import spotlight
-from insar.observe.agile.spotlight_results import SpotlightRequest, SpotlightResult
+from insar.observe.agile.spotlight_results import Pointing, SpotlightRequest, SpotlightResult
 from insar.observe.agile.video import video
 from insar.observe.agile.video_results import VideoRequest, VideoResult, YawLaw
 from insar.observe.coverage.results import Coverage, CoverageResult
@@ -308,6 +308,32 @@ def test_a_satellite_that_is_not_agile_enough_is_called_so() -> None:
     assert "not agile enough for 100 % of the time" in text
     assert "The body would have to turn faster" in text  # the warning, as a sentence
     assert document_of(slow)["spotlight"]["maneuver"]["rate_limit_rad_s"] == [0.01, 0.001, None]
+
+
+def test_what_is_known_of_no_sample_is_null_with_a_reason() -> None:
+    """A beam that has no attitude exceeds no limit, and keeps none."""
+    image = make_spotlight(agility=Agility(max_rate=1e-6))
+    exceeded = document_of(image)["spotlight"]["maneuver"]
+    assert (exceeded["rate_exceeded_fraction"], exceeded["reason"]) == (1.0, None)
+    outcome = np.full_like(image.profile.outcome, Pointing.BELOW_HORIZON)
+    lost = dataclasses.replace(image, profile=image.profile._replace(outcome=outcome))
+    maneuver = document_of(lost)["spotlight"]["maneuver"]
+    for name in ("rate_exceeded_fraction", "acceleration_exceeded_fraction", "singular_fraction"):
+        assert maneuver[name] is None
+    assert "100 % of the samples" in maneuver["reason"].replace("\u00a0", " ")
+    # Of some: the share is that of the others.
+    outcome = np.where(np.arange(len(outcome)) < 10, Pointing.BELOW_HORIZON, 0)
+    partly = dataclasses.replace(image, profile=image.profile._replace(outcome=outcome))
+    assert document_of(partly)["spotlight"]["maneuver"]["rate_exceeded_fraction"] == 1.0
+
+
+def test_inferred_inputs_are_named_in_the_result(image: SpotlightResult) -> None:
+    study = dataclasses.replace(study_of("spotlight"), inferred=(("orbit.altitude_km", "514"),))
+    document = json.loads(
+        result_json(page_of(image).json(image), study=study, provenance=PROVENANCE)
+    )
+    jsonschema.validate(document, result_schema())
+    assert document["study"]["inferred"] == [{"key": "orbit.altitude_km", "value": "514"}]
 
 
 def test_aim_errors_that_are_rounding_are_zero(image: SpotlightResult) -> None:

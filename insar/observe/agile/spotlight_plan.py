@@ -248,7 +248,7 @@ def _never(request: SpotlightRequest, found: _Passages, window: Window) -> str:
             f"the nearest of {len(found.time)} pass{'' if len(found.time) == 1 else 'es'} sees it "
             f"at incidence {_degrees(value)}, "
             f"outside {_degrees(request.near_incidence)} to {_degrees(request.far_incidence)}, "
-            f"{why}; {window.longer}"
+            f"{why}; {window.longer}, or allow other incidences"
         )
     if np.any(found.in_reach & found.on_side):
         heading = "southward" if request.direction is Direction.ASCENDING else "northward"

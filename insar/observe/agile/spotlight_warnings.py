@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 
 from .spotlight_results import Pointing, SpotlightResult
-from .warning_texts import orbit_warnings, part, turning_warnings
+from .warning_texts import orbit_warnings, part, steep_warning, turning_warnings
 
 
 def warnings_of(result: SpotlightResult) -> SpotlightResult:
@@ -17,6 +17,7 @@ def warnings_of(result: SpotlightResult) -> SpotlightResult:
     """
     profile, times, request = result.profile, result.times, result.request
     found = [
+        steep_warning(result.plan.incidence),
         part(
             times,
             profile.outcome == Pointing.BELOW_HORIZON,

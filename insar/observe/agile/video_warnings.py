@@ -7,7 +7,7 @@ import dataclasses
 import numpy as np
 
 from .video_results import Staring, VideoResult
-from .warning_texts import orbit_warnings, part, turning_warnings
+from .warning_texts import orbit_warnings, part, steep_warning, turning_warnings
 
 _ROUNDING = 1e-9
 """By which an overlap at its limit may exceed it unmentioned."""
@@ -22,6 +22,7 @@ def warnings_of(result: VideoResult) -> VideoResult:
     """
     profile = result.profile
     found = [
+        steep_warning(result.plan.incidence),
         part(
             result.times,
             profile.outcome == Staring.BELOW_HORIZON,

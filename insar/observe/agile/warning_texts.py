@@ -19,6 +19,12 @@ Mask = NDArray[np.bool_]
 _LARGEST_MISFIT = 1e-3
 """Of the smooth orbit that goes unmentioned: 1e-9 rad of attitude, in low orbit [m]."""
 
+_STEEP = math.radians(10.0)
+"""Incidence below which a cell in range is six times longer on the ground [rad]."""
+
+_OVERHEAD = 1e-4
+"""Sine of an incidence at which a cell in range has no useful length on the ground."""
+
 
 def part(times: Array, where: Mask, what: str, remedy: str, unit: str = "samples") -> str:
     """One warning for the samples where something holds; empty if there are none.
@@ -37,6 +43,24 @@ def part(times: Array, where: Mask, what: str, remedy: str, unit: str = "samples
     return (
         f"{what}: {np.count_nonzero(where)} of {len(where)} {unit}, the first {there[0]:.2f} s and "
         f"the last {there[-1]:.2f} s from zero Doppler; {remedy}"
+    )
+
+
+def steep_warning(incidence: float) -> str:
+    """Warning of a place near the satellite's nadir at zero Doppler; empty if it is not.
+
+    Parameters
+    ----------
+    incidence : scalar — at zero Doppler [rad].
+    """
+    if incidence >= _STEEP:
+        return ""
+    sine = math.sin(incidence)
+    coarser = f"{1.0 / sine:.3g} times" if sine > _OVERHEAD else "without limit"
+    return (
+        f"the aim point is {math.degrees(incidence):.2f}° from the satellite's nadir at zero "
+        f"Doppler: on the ground range resolves {coarser} more coarsely than along the line of "
+        "sight, and places left and right of the track share a range; take another pass"
     )
 
 
