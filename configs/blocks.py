@@ -36,6 +36,13 @@ class RadarBlock(Block):
         "when they are apart along track, and the looks of a posting; absent: along-track "
         "separations cost no coherence.",
     )
+    doppler_bandwidth_hz: Number | None = Field(
+        default=None,
+        ge=1,
+        le=1e6,
+        description="Processed Doppler bandwidth; instead of azimuth_resolution_m, which follows "
+        "from it and the speed of the zero-Doppler line on the ground.",
+    )
     looks: Number = Field(
         default=1.0,
         ge=1,
@@ -90,6 +97,12 @@ class RadarBlock(Block):
 
     @model_validator(mode="after")
     def _check(self) -> Self:
+        if None not in (self.azimuth_resolution_m, self.doppler_bandwidth_hz):
+            raise wrong(
+                ("doppler_bandwidth_hz",),
+                "excludes azimuth_resolution_m, which says the same",
+                "keep one of them",
+            )
         if self.snr_db is not None and (self.nesz_db, self.backscatter_db) != (None, None):
             raise wrong(
                 ("snr_db",),

@@ -24,6 +24,13 @@ class BeamBlock(Block):
     aasr_db: Number | None = Field(
         default=None, ge=-80, le=0, description="Azimuth ambiguities over the signal; or none."
     )
+    swath_km: Number | None = Field(
+        default=None,
+        ge=1,
+        le=1000,
+        description="Extent across track on the ground; where dem and errors.calibration give "
+        "none, the narrowest of the segments counts.",
+    )
 
 
 class BackscatterBlock(Block):

@@ -16,6 +16,7 @@ from insar.coherence import (
     TemporalDecorrelation,
     UniformVolume,
     at_incidence,
+    azimuth_resolution,
 )
 
 from .blocks import RadarBlock
@@ -70,6 +71,49 @@ def segment_snr(radar: RadarBlock, backscatter: BackscatterBlock | None, scene: 
         local, backscatter.incidence_deg, backscatter.chosen_db, ("scene", "backscatter")
     )
     return np.asarray(signal / noise)
+
+
+def azimuth_resolution_of(radar: RadarBlock, scene: Scene, *, speed: float) -> float | None:
+    """Resolution along track: as given, or that of the Doppler bandwidth.
+
+    Parameters
+    ----------
+    radar : of the study.
+    scene : whose segments are seen under different angles; their mean counts.
+    speed : along the orbit [m/s].
+    """
+    bandwidth = radar.doppler_bandwidth_hz
+    if bandwidth is None:
+        return radar.azimuth_resolution_m
+    found = azimuth_resolution(
+        bandwidth, speed=speed, look_angle=scene.look_angle, incidence=scene.incidence
+    )
+    return float(found.mean())
+
+
+def beam_swath(radar: RadarBlock, scene: Scene) -> float | None:
+    """Swath of the beams, the narrowest of the segments [m]; None where they give none.
+
+    Parameters
+    ----------
+    radar : of the study.
+    scene : the segments.
+
+    Raises
+    ------
+    BuildError
+        If some beams give a swath and others don't.
+    """
+    beams = radar.beams or ()
+    known = [beam.swath_km for beam in beams if beam.swath_km is not None]
+    if not known:
+        return None
+    if len(known) < len(beams):
+        raise BuildError(
+            ("radar", "beams"), "gives swath_km at some incidences only; give it at all, or at none"
+        )
+    table = np.radians([beam.incidence_deg for beam in beams])
+    return 1e3 * float(np.interp(scene.incidence, table, known).min())
 
 
 def build_coherence(

@@ -67,8 +67,8 @@ class DemBlock(Block):
         default=None,
         ge=0.1,
         le=10_000,
-        description="Distance of the posts. With radar.azimuth_resolution_m it gives the looks; "
-        "without it radar.looks counts.",
+        description="Distance of the posts. With radar.azimuth_resolution_m (or "
+        "doppler_bandwidth_hz) it gives the looks; without it radar.looks counts.",
     )
     resolution_over_posting: Number = Field(
         default=1.0,
@@ -86,7 +86,8 @@ class DemBlock(Block):
         default=None,
         ge=1,
         le=1000,
-        description="Extent across track of a scene; by default that of errors.calibration, or 30.",
+        description="Extent across track of a scene; by default that of errors.calibration, "
+        "else of the radar's beams, else 30.",
     )
     specifications: Annotated[tuple[SpecificationItem, ...], Field(max_length=10)] = Field(
         default=("hrti3",),
@@ -106,7 +107,7 @@ def check_looks(dem: DemBlock, radar: RadarBlock) -> None:
     """The looks are given, or follow from posting and resolution."""
     if dem.posting_m is None or "looks" in radar.model_fields_set:
         return
-    if radar.azimuth_resolution_m is None:
+    if (radar.azimuth_resolution_m, radar.doppler_bandwidth_hz) == (None, None):
         raise wrong(
             ("dem", "posting_m"),
             "gives the looks only together with radar.azimuth_resolution_m",

@@ -10,6 +10,7 @@ from insar.swath import across_swath
 from optimize import DemRequest, looks_for
 
 from .blocks import RadarBlock
+from .coherent import beam_swath
 from .dem import DemBlock, SpecificationBlock
 from .messages import BuildError, KeyPath
 
@@ -17,16 +18,22 @@ _DEFAULT_SWATH = 30e3
 
 
 def build_dem(
-    block: DemBlock | None, radar: RadarBlock, scene: Scene, calibration: Calibration | None
+    block: DemBlock | None,
+    radar: RadarBlock,
+    scene: Scene,
+    calibration: Calibration | None,
+    *,
+    azimuth: float | None,
 ) -> DemRequest:
     """Build what is asked of the elevation model, in SI units.
 
     Parameters
     ----------
     block : of the study; None judges by no class.
-    radar : for its resolution.
+    radar : for its range resolution, and its beams.
     scene : for the room between it and nadir.
     calibration : whose swath is that of a scene where the block gives none.
+    azimuth : resolution along track [m]; None if it is not known.
 
     Raises
     ------
@@ -34,11 +41,9 @@ def build_dem(
         If the swath reaches nadir or the horizon.
     """
     resolution = None
-    if radar.azimuth_resolution_m is not None:
-        resolution = Resolution(
-            slant_range=radar.slant_range_resolution_m, azimuth=radar.azimuth_resolution_m
-        )
-    swath = _swath(block, scene, calibration)
+    if azimuth is not None:
+        resolution = Resolution(slant_range=radar.slant_range_resolution_m, azimuth=azimuth)
+    swath = _swath(block, radar, scene, calibration)
     if block is None:
         return DemRequest(resolution=resolution, cell=Cell(swath=swath))
     return DemRequest(
@@ -87,12 +92,17 @@ def _specification(block: SpecificationBlock) -> Specification:
     )
 
 
-def _swath(block: DemBlock | None, scene: Scene, calibration: Calibration | None) -> float:
+def _swath(
+    block: DemBlock | None, radar: RadarBlock, scene: Scene, calibration: Calibration | None
+) -> float:
     at: KeyPath
+    of_beams = beam_swath(radar, scene)
     if block is not None and block.swath_km is not None:
         at, swath = ("dem", "swath_km"), 1e3 * block.swath_km
     elif calibration is not None:
         at, swath = ("errors", "calibration", "swath_km"), calibration.swath
+    elif of_beams is not None:
+        at, swath = ("radar", "beams"), of_beams
     else:
         # Nobody says how wide it is: what the usual one leaves room for beside nadir.
         room = float((scene.slant_range * np.sin(scene.look_angle)).min())

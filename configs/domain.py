@@ -30,9 +30,10 @@ from insar.atmosphere import TEC_UNIT
 from optimize import Constraints, DemRequest, Problem, RefutationSettings
 
 from .blocks import ErrorsBlock, RadarBlock
-from .coherent import build_coherence, segment_snr
+from .coherent import azimuth_resolution_of, beam_swath, build_coherence, segment_snr
 from .dem_request import build_dem, looks_of
 from .limits import LimitsBlock
+from .messages import BuildError
 from .observing import View
 from .studies import FormationStudy
 from .systematic import CalibrationBlock, IonosphereBlock
@@ -65,13 +66,16 @@ def build_problem(
         If posting or swath of the elevation model do not fit radar and scene.
     """
     scene = view.scene
-    calibration = _calibration(study.errors.calibration)
-    dem = build_dem(study.dem, study.radar, scene, calibration)
+    speed = view.orbit.mean_motion * (EARTH_EQUATORIAL_RADIUS + view.orbit.altitude)
+    azimuth = azimuth_resolution_of(study.radar, scene, speed=speed)
+    calibration = _calibration(study.errors.calibration, beam_swath(study.radar, scene))
+    dem = build_dem(study.dem, study.radar, scene, calibration, azimuth=azimuth)
     snr = segment_snr(study.radar, study.scene.backscatter, scene)
     looks = looks_of(study.radar, dem, scene)
-    radar = _radar(study.radar, names, looks=looks, snr=float(np.median(snr)))
+    radar = _radar(
+        study.radar, names, looks=looks, snr=float(np.median(snr)), azimuth_resolution=azimuth
+    )
     critical = float(scene_critical_baseline(scene, radar, multiplicity=radar.multiplicity).min())
-    speed = view.orbit.mean_motion * (EARTH_EQUATORIAL_RADIUS + view.orbit.altitude)
     coherence = build_coherence(
         study.errors.coherence, study.radar, scene, snr=snr, built=radar, speed=speed
     )
@@ -107,7 +111,12 @@ def build_refutation(study: FormationStudy, problem: Problem) -> RefutationSetti
 
 
 def build_instrument(
-    radar: RadarBlock, errors: ErrorsBlock, names: Sequence[str], scene: Scene
+    radar: RadarBlock,
+    errors: ErrorsBlock,
+    names: Sequence[str],
+    scene: Scene,
+    *,
+    speed: float,
 ) -> tuple[Radar, ErrorBudget]:
     """Build the radar and the error budget of a study without segments of its own.
 
@@ -116,14 +125,28 @@ def build_instrument(
     radar, errors : of the study.
     names : name of each satellite.
     scene : where an azimuth error on the ground becomes an angle.
+    speed : along the orbit [m/s].
     """
     snr = segment_snr(radar, None, scene)
-    built = _radar(radar, names, looks=radar.looks, snr=float(np.median(snr)))
+    built = _radar(
+        radar,
+        names,
+        looks=radar.looks,
+        snr=float(np.median(snr)),
+        azimuth_resolution=azimuth_resolution_of(radar, scene, speed=speed),
+    )
     coherence = build_coherence(errors.coherence, radar, scene, snr=snr, built=built, speed=None)
     return built, replace(_errors(errors, built, scene), coherence=coherence)
 
 
-def _radar(block: RadarBlock, names: Sequence[str], *, looks: float, snr: float) -> Radar:
+def _radar(
+    block: RadarBlock,
+    names: Sequence[str],
+    *,
+    looks: float,
+    snr: float,
+    azimuth_resolution: float | None,
+) -> Radar:
     if isinstance(block.images, tuple):
         images = tuple((names.index(tx), names.index(rx)) for tx, rx in block.images)
     elif block.images == "one_transmitter":
@@ -138,7 +161,7 @@ def _radar(block: RadarBlock, names: Sequence[str], *, looks: float, snr: float)
         looks=looks,
         images=images,
         other_coherence=block.other_coherence,
-        azimuth_resolution=block.azimuth_resolution_m,
+        azimuth_resolution=azimuth_resolution,
     )
 
 
@@ -190,11 +213,24 @@ def _ionosphere(block: IonosphereBlock | None) -> Ionosphere | None:
     )
 
 
-def _calibration(block: CalibrationBlock | None) -> Calibration | None:
+def _calibration(block: CalibrationBlock | None, of_beams: float | None) -> Calibration | None:
     if block is None:
         return None
+    swath = of_beams if block.swath_km is None else 1e3 * block.swath_km
+    if swath is None:
+        raise BuildError(
+            ("errors", "calibration"),
+            "lacks swath_km, the extent across track of what one adjustment covers; add it, or "
+            "swath_km of radar.beams",
+        )
+    if 1e3 * block.spacing_across_km > swath:
+        raise BuildError(
+            ("errors", "calibration", "spacing_across_km"),
+            f"exceeds the swath of the beams, {swath / 1e3:.4g} km, so that no control point need "
+            f"fall into it; take at most {swath / 1e3:.4g}",
+        )
     return Calibration(
-        swath=1e3 * block.swath_km,
+        swath=swath,
         length=1e3 * block.length_km,
         spacing_across=1e3 * block.spacing_across_km,
         spacing_along=1e3 * block.spacing_along_km,

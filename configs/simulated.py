@@ -83,7 +83,8 @@ def build_simulate(study: SimulateStudy) -> SimulateSetup:
         earth_radius=EARTH_EQUATORIAL_RADIUS,
         side=side,
     )
-    radar, errors = build_instrument(study.radar, study.errors, names, middle)
+    speed = orbit.mean_motion * orbit.semi_major_axis
+    radar, errors = build_instrument(study.radar, study.errors, names, middle, speed=speed)
     _check_effort(study, view, radar)
     for name in unsupported_scales(natural_errors(errors).errors):
         raise BuildError(

@@ -86,8 +86,12 @@ class CalibrationBlock(Block):
         description="What one adjustment covers: errors that stay the same over all of it are "
         "removed as well as the points allow; those of a shorter scale stay.",
     )
-    swath_km: Number = Field(
-        ge=1, le=1000, description="Extent across track of what one adjustment covers."
+    swath_km: Number | None = Field(
+        default=None,
+        ge=1,
+        le=1000,
+        description="Extent across track of what one adjustment covers; by default the swath of "
+        "the radar's beams.",
     )
     length_km: Number = Field(
         ge=1, le=40_000, description="Extent along track of what one adjustment covers."
@@ -119,12 +123,12 @@ class CalibrationBlock(Block):
     @model_validator(mode="after")
     def _check(self) -> Self:
         for key, extent in (("spacing_across_km", "swath_km"), ("spacing_along_km", "length_km")):
-            if getattr(self, key) > getattr(self, extent):
+            known = getattr(self, extent)
+            if known is not None and getattr(self, key) > known:
                 raise wrong(
                     (key,),
-                    f"exceeds {extent} = {getattr(self, extent):g}, so that no control point need "
+                    f"exceeds {extent} = {known:g}, so that no control point need "
                     "fall into what is adjusted",
-                    f"take at most {getattr(self, extent):g}, or adjust a larger area with over: "
-                    "data_take",
+                    f"take at most {known:g}, or adjust a larger area with over: data_take",
                 )
         return self

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from insar import Ionosphere
 
+from .budget_coherence import Change, coherence_changes, quantization_change
 from .problem import Problem
 
 Array = NDArray[np.float64]
@@ -27,6 +28,7 @@ class BudgetItem(NamedTuple):
     better : +1 if more of it is better, −1 if less, 0 if either may be.
     changed : problem and positions with the item multiplied by a factor; raises ValueError where it
         can't be.
+    continuous : whether it can be changed by a little; bits can't.
     """
 
     name: str
@@ -34,6 +36,7 @@ class BudgetItem(NamedTuple):
     value: float
     better: int
     changed: Callable[[float], tuple[Problem, Array]]
+    continuous: bool = True
 
 
 def budget_items(problem: Problem, positions: ArrayLike) -> tuple[BudgetItem, ...]:
@@ -55,9 +58,14 @@ def budget_items(problem: Problem, positions: ArrayLike) -> tuple[BudgetItem, ..
             *_of_radar(problem),
             *_of_errors(problem),
             *_of_calibration(problem),
+            *coherence_changes(problem),
         )
         if value > 0.0
     ]
+    bits = quantization_change(problem)
+    if bits is not None:
+        name, unit, value, better, make = bits
+        items.append(BudgetItem(name, unit, value, better, of_problem(make), continuous=False))
     prior = problem.constraints.prior_height_std
     if prior is not None:
         items.append(
@@ -78,12 +86,9 @@ def budget_items(problem: Problem, positions: ArrayLike) -> tuple[BudgetItem, ..
     return tuple(items)
 
 
-_Change = tuple[str, str, float, int, Callable[[float], Problem]]
-
-
-def _of_radar(problem: Problem) -> list[_Change]:
+def _of_radar(problem: Problem) -> list[Change]:
     radar = problem.radar
-    changes: list[_Change] = [
+    changes: list[Change] = [
         ("snr", "", radar.snr, 1, lambda f: _with_radar(problem, snr=f * radar.snr)),
         ("looks", "", radar.looks, 1, lambda f: _with_radar(problem, looks=f * radar.looks)),
         (
@@ -112,7 +117,7 @@ def _with_radar(problem: Problem, **changes: float) -> Problem:
     return replace(problem, radar=replace(problem.radar, **changes))  # type: ignore[arg-type]
 
 
-def _of_errors(problem: Problem) -> list[_Change]:
+def _of_errors(problem: Problem) -> list[Change]:
     errors = problem.errors
     units = {
         "position": "m",
@@ -126,7 +131,7 @@ def _of_errors(problem: Problem) -> list[_Change]:
         source = getattr(errors, name)
         return lambda f: _with_errors(problem, **{name: source._replace(std=f * source.std)})
 
-    changes: list[_Change] = [
+    changes: list[Change] = [
         (name, unit, getattr(errors, name).std, -1, scaled(name)) for name, unit in units.items()
     ]
     ionosphere = errors.ionosphere
@@ -155,7 +160,7 @@ def _with_errors(problem: Problem, **changes: object) -> Problem:
     return replace(problem, errors=replace(problem.errors, **changes))  # type: ignore[arg-type]
 
 
-def _of_calibration(problem: Problem) -> list[_Change]:
+def _of_calibration(problem: Problem) -> list[Change]:
     calibration = problem.errors.calibration
     if calibration is None:
         return []

@@ -168,6 +168,10 @@ def sensitivities(study: Study) -> tuple[Sensitivity, ...]:
     """
     found = []
     for item in study.items:
+        if not item.continuous:
+            unknown = dict.fromkeys(Quantity, math.nan)
+            found.append(Sensitivity(item.name, item.unit, item.value, unknown))
+            continue
         low, high = (_worst(study, item, math.exp(step)) for step in (-_STEP, _STEP))
         span = 2.0 * _STEP
         if not low or not high:  # at the edge of what can be, such as a single look

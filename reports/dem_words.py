@@ -11,9 +11,9 @@ from optimize.sensitivity import Quantity
 from .wording import MISSING, quantity, significant
 
 ITEMS = {
-    "snr": "signal-to-noise ratio",
+    "snr": "signal-to-noise ratio, σ⁰/NESZ",
     "looks": "looks",
-    "slant_range_resolution": "slant-range resolution",
+    "slant_range_resolution": "slant-range resolution (its critical baseline)",
     "azimuth_resolution": "azimuth resolution",
     "position": "satellite position error",
     "azimuth": "azimuth error",
@@ -24,6 +24,15 @@ ITEMS = {
     "calibration_spacing": "spacing of control, across",
     "calibration_accuracy": "accuracy of control",
     "calibration_bias": "bias of control",
+    "rasr": "range ambiguities",
+    "aasr": "azimuth ambiguities",
+    "range_shift": "co-registration in range",
+    "azimuth_shift": "co-registration in azimuth",
+    "processing_loss": "coherence lost in processing",
+    "other_loss": "other loss of coherence",
+    "volume_height": "height of the volume",
+    "time_constant": "time constant of the scene",
+    "quantization_bits": "bits of the raw data",
     "prior_height": "prior height error",
     "baselines": "all baselines",
 }
@@ -63,12 +72,18 @@ def item_value(item: str, value: float | None) -> str:
     """
     if value is None:
         return MISSING
-    if item == "snr":
+    if item in ("snr", "rasr", "aasr"):
         return quantity(f"{10.0 * math.log10(value):.1f}".replace("-", "−"), "dB")
     if item == "baselines":
         return f"× {significant(value)}"
     scale, unit = {
         "looks": (1.0, ""),
+        "quantization_bits": (1.0, ""),
+        "range_shift": (1.0, "cells"),
+        "azimuth_shift": (1.0, "cells"),
+        "processing_loss": (100.0, "%"),
+        "other_loss": (100.0, "%"),
+        "time_constant": (1.0, "s"),
         "azimuth": (1e6, "µrad"),
         "synchronization": (180.0 / math.pi, "°"),
         "position": (1e3, "mm"),

@@ -80,6 +80,54 @@ def test_tables_are_read_at_the_incidence_of_the_segment():
     assert problem.radar.azimuth_resolution == 3.0
 
 
+def test_azimuth_resolution_of_a_doppler_bandwidth():
+    """The speed of the zero-Doppler line, by turning the orbit a little over a sphere."""
+    given = changed(radar__azimuth_resolution_m=None, radar__doppler_bandwidth_hz=2000)
+    problem = build_optimize(OptimizeStudy.model_validate(given)).problem
+    scene, turn = problem.scene, 1e-6
+    central = scene.incidence[0] - scene.look_angle[0]
+    # A ground point at the central angle off the orbit plane runs on a smaller circle.
+    circle = 6378.137e3 * math.cos(central)
+    speed = circle * turn / (turn / problem.mean_motion)
+    assert problem.radar.azimuth_resolution == pytest.approx(speed / 2000, rel=1e-6)
+    assert speed == pytest.approx(7020, abs=15)  # of 7605 m/s on the orbit
+
+
+def test_swath_of_the_beams_where_nothing_else_gives_one():
+    study = changed()
+    for beam, swath in zip(study["radar"]["beams"], (40, 20), strict=True):
+        beam["swath_km"] = swath
+    study["dem"] = {}
+    study["errors"]["calibration"] = {
+        "length_km": 100,
+        "spacing_across_km": 10,
+        "spacing_along_km": 10,
+        "accuracy_m": 1,
+    }
+    built = build_optimize(OptimizeStudy.model_validate(study))
+    flat = math.degrees(built.problem.scene.incidence[0])
+    swath = 40e3 - 20e3 * (flat - 20) / 20
+    assert built.problem.errors.calibration.swath == pytest.approx(swath)
+    assert built.dem.cell.swath == pytest.approx(swath)
+    study["errors"]["calibration"]["swath_km"] = 25
+    assert build_optimize(OptimizeStudy.model_validate(study)).dem.cell.swath == 25e3
+    del study["errors"]["calibration"]["swath_km"]
+    study["errors"]["calibration"]["spacing_across_km"] = 39
+    with pytest.raises(StudyError, match="exceeds the swath of the beams"):
+        build_optimize(OptimizeStudy.model_validate(study))
+    del study["radar"]["beams"][0]["swath_km"]
+    with pytest.raises(StudyError, match="gives swath_km at some incidences only"):
+        build_optimize(OptimizeStudy.model_validate(study))
+    del study["radar"]["beams"][1]["swath_km"]
+    with pytest.raises(StudyError, match=r"errors\.calibration lacks swath_km"):
+        build_optimize(OptimizeStudy.model_validate(study))
+
+
+def test_azimuth_resolution_is_given_once():
+    with pytest.raises(ValidationError, match="excludes azimuth_resolution_m"):
+        OptimizeStudy.model_validate(changed(radar__doppler_bandwidth_hz=2000))
+
+
 def test_volume_and_time_in_si():
     problem = build_optimize(OptimizeStudy.model_validate(STUDY)).problem
     budget = problem.errors.coherence

@@ -48,8 +48,8 @@ IN_THREE_SAT = {
         "snr: 10 ",
         "snr: 10",
         "radar.snr is not a known key; did you mean 'snr_db'? the keys of radar are wavelength_m, "
-        "slant_range_resolution_m, azimuth_resolution_m, looks, snr_db, nesz_db, backscatter_db, "
-        "beams, other_coherence, images, transmitter",
+        "slant_range_resolution_m, azimuth_resolution_m, doppler_bandwidth_hz, looks, snr_db, "
+        "nesz_db, backscatter_db, beams, other_coherence, images, transmitter",
     ),
     "misspelt key that is required": (
         "wavelength_m",

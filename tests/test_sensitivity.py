@@ -9,6 +9,7 @@ from formation import ground_track_circular
 from insar import (
     Calibration,
     Cell,
+    CoherenceBudget,
     ErrorBudget,
     ErrorSource,
     HeldConstant,
@@ -20,6 +21,13 @@ from insar import (
     height_error,
     pair_critical_baseline,
     pair_geometry,
+)
+from insar.coherence import (
+    PenetratedVolume,
+    ProfileVolume,
+    TemporalDecorrelation,
+    UniformVolume,
+    quantization_coherence,
 )
 from insar.dem import HRTI3, HRTI4, Resolution, Specification
 from insar.dem import Quantity as Demand
@@ -114,6 +122,88 @@ def test_what_is_not_there_is_no_item():
     names |= {"calibration_spacing", "calibration_accuracy", "calibration_bias"}
     found = {item.name for item in budget_items(everything.problem, everything.positions)}
     assert found == names
+
+
+COHERENCE = CoherenceBudget(
+    quantization_bits=2,
+    rasr=(0.01, 0.02),
+    aasr=0.005,
+    range_shift=0.1,
+    azimuth_shift=0.05,
+    processing=0.98,
+    volume=UniformVolume(height=4.0),
+    temporal=TemporalDecorrelation(time_constant=100.0, image_times=(0.0, 5.0)),
+)
+
+
+def test_elasticities_of_the_coherence_in_closed_form():
+    """The error of two images goes as √(1 − γ²)/γ: d ln e/d ln γ = −1/(1 − γ²)."""
+    budget = replace(COHERENCE, volume=None, temporal=None, rasr=0.02)
+    radar = replace(RADAR, other_coherence=0.97)
+    study = _study(radar=radar, coherence=budget)
+    found = {one.item: one.elasticities[Quantity.TOTAL] for one in sensitivities(study)}
+    shifts = np.sinc(0.1) * np.sinc(0.05)
+    noise = 1.0 / (1.0 + 1.0 / radar.snr)
+    coherence = noise * 0.97 * quantization_coherence(2) * shifts * 0.98 / (1.02 * 1.005)
+    answer = -1.0 / (1.0 - coherence**2)
+
+    def of_shift(shift):  # d ln sinc(x)/d ln x
+        return np.pi * shift / np.tan(np.pi * shift) - 1.0
+
+    expected = {
+        "rasr": -0.02 / 1.02,
+        "aasr": -0.005 / 1.005,
+        "range_shift": of_shift(0.1),
+        "azimuth_shift": of_shift(0.05),
+        "processing_loss": -0.02 / 0.98,
+        "other_loss": -0.03 / 0.97,
+    }
+    for name, of_coherence in expected.items():
+        assert found[name] == pytest.approx(answer * of_coherence, rel=1e-4), name
+    assert np.isnan(found["quantization_bits"])  # there is no half a bit
+
+
+@pytest.mark.parametrize(
+    ("volume", "value"),
+    [
+        (UniformVolume(height=4.0), 4.0),
+        (PenetratedVolume(depth=2.0), 2.0),
+        (ProfileVolume(heights=(1.0, 6.0), powers=(1.0, 2.0)), 5.0),
+    ],
+)
+def test_volume_and_time_are_items(volume, value):
+    study = _study(coherence=replace(COHERENCE, volume=volume))
+    found = {one.item: one for one in sensitivities(study)}
+    assert found["volume_height"].value == pytest.approx(value)
+    assert found["rasr"].value == 0.02  # the largest of the segments
+    assert found["volume_height"].elasticities[Quantity.TOTAL] > 0.0
+    assert found["time_constant"].elasticities[Quantity.TOTAL] < 0.0
+
+
+def test_bits_that_pass_are_whole_and_one_less_fails():
+    study = _study(coherence=replace(COHERENCE, quantization_bits=1))
+
+    def relative(bits):
+        coherence = replace(COHERENCE, quantization_bits=bits)
+        problem = replace(study.problem, errors=replace(study.problem.errors, coherence=coherence))
+        return quantities(problem, study.positions, study.cell)[Quantity.RELATIVE].max()
+
+    found = remedies(study, Quantity.RELATIVE, 1.0001 * relative(3))
+    assert _of(found, "quantization_bits").needed == pytest.approx(3.0, abs=1e-5)
+    assert relative(2) > 1.0001 * relative(3)
+    assert (
+        _of(remedies(study, Quantity.RELATIVE, 0.5 * relative(8)), "quantization_bits").needed
+        is None
+    )
+
+
+def test_ambiguities_that_pass_in_closed_form():
+    """From −10 dB to where the coherence is that of −20 dB, by any other road the same."""
+    study = _study(coherence=CoherenceBudget(rasr=0.1))
+    better = _study(coherence=CoherenceBudget(rasr=0.01))
+    limit = quantities(better.problem, better.positions, better.cell)[Quantity.ABSOLUTE].max()
+    needed = _of(remedies(study, Quantity.ABSOLUTE, limit), "rasr").needed
+    assert needed == pytest.approx(0.01, rel=1e-6)
 
 
 def test_a_single_look_has_a_one_sided_elasticity():

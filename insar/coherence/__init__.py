@@ -12,7 +12,13 @@ from .noise import (
     quantization_distortion,
     snr_coherence,
 )
-from .spectra import common_band, coregistration_coherence, doppler_offset, doppler_shift
+from .spectra import (
+    azimuth_resolution,
+    common_band,
+    coregistration_coherence,
+    doppler_offset,
+    doppler_shift,
+)
 from .tables import at_incidence
 from .temporal import TemporalDecorrelation
 from .volume import (
@@ -35,6 +41,7 @@ __all__ = [
     "Volume",
     "ambiguity_coherence",
     "at_incidence",
+    "azimuth_resolution",
     "common_band",
     "coregistration_coherence",
     "doppler_offset",
