@@ -117,7 +117,7 @@ def _of_doppler(problem: Problem, assessment: Assessment) -> list[str]:
     return [
         f"Satellites are up to {baseline.max():.0f} m apart along track, which shifts the Doppler "
         f"spectra of a pair by {shift.max():.0f} Hz: the decorrelation is not counted here; give "
-        "radar.azimuth_resolution_m to count it."
+        "radar.azimuth_resolution_m or radar.doppler_bandwidth_hz to count it."
         if lost is not BaselineDecorrelation.NONE
         else f"Satellites are up to {baseline.max():.0f} m apart along track, which shifts the "
         f"Doppler spectra of a pair by {shift.max():.0f} Hz: like all decorrelation by baselines, "
