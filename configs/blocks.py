@@ -256,11 +256,16 @@ class ErrorsBlock(Block):
         description="What a target keeps while its height changes: doppler (default), as in a "
         "SAR image; azimuth: Li 2009's form.",
     )
+    phase_statistics: Literal["exact", "cramer_rao"] | None = Field(
+        default=None,
+        description="What phase noise follows from coherence and looks by: exact (default), the "
+        "multilook distribution; cramer_rao: its bound, met at many looks.",
+    )
     phase_std_deg: Number | None = Field(
         default=None,
         gt=0,
         le=180,
-        description="Phase noise of every pair instead of the Cramér-Rao bound; weighting: pairs.",
+        description="Phase noise of every pair, whatever its coherence; needs weighting: pairs.",
     )
 
     @model_validator(mode="after")
@@ -297,6 +302,13 @@ class ErrorsBlock(Block):
                     "is possible only with weighting: pairs, since joint weighs images",
                     "set weighting: pairs, or remove this key",
                 )
+        stated = self.preset is not None or self.phase_std_deg is not None
+        if self.phase_statistics is not None and stated:
+            raise wrong(
+                ("phase_statistics",),
+                "has no effect where the phase noise is stated, by phase_std_deg or the preset",
+                "remove it, or state the errors without a preset and without phase_std_deg",
+            )
         if self.phase_std_deg is not None and not pairwise:
             raise wrong(
                 ("phase_std_deg",),

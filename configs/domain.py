@@ -16,6 +16,7 @@ from insar import (
     ErrorSource,
     HeldConstant,
     Ionosphere,
+    PhaseStatistics,
     Radar,
     Scale,
     Scene,
@@ -198,6 +199,11 @@ def _errors(block: ErrorsBlock, radar: Radar, scene: Scene) -> ErrorBudget:
             base.baseline_decorrelation if lost is None else BaselineDecorrelation(lost)
         ),
         held_constant=held,
+        phase_statistics=(
+            base.phase_statistics
+            if block.phase_statistics is None
+            else PhaseStatistics(block.phase_statistics)
+        ),
         phase_std=base.phase_std if phase_std is None else math.radians(phase_std),
     )
 

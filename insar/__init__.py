@@ -25,6 +25,7 @@ from .errors import (
     ErrorBudget,
     ErrorSource,
     HeldConstant,
+    PhaseStatistics,
     Scale,
     SharedBy,
     Weighting,
@@ -35,6 +36,7 @@ from .image_model import ImageModel, PairNoise, image_model, pair_coherence
 from .pair_budget import PairBudget, pair_budget
 from .phase_information import filtered_information, fisher_information, pair_phase_variance
 from .phase_model import PhaseModel, phase_model
+from .phase_noise import lessen_information, pair_efficiency
 from .point_to_point import point_to_point_error, point_to_point_factor
 from .radar import Radar, monostatic, one_transmitter, ping_pong
 from .scene import LookSide, Scene
@@ -70,6 +72,7 @@ __all__ = [
     "PairGeometry",
     "PairNoise",
     "PhaseModel",
+    "PhaseStatistics",
     "PrintedFigure",
     "Radar",
     "Relation",
@@ -95,12 +98,14 @@ __all__ = [
     "image_model",
     "judged",
     "judged_range",
+    "lessen_information",
     "line_of_sight",
     "monostatic",
     "one_transmitter",
     "pair_budget",
     "pair_coherence",
     "pair_critical_baseline",
+    "pair_efficiency",
     "pair_geometry",
     "pair_phase_variance",
     "phase_model",

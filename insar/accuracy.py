@@ -242,6 +242,7 @@ def _pair_factor(
         coherence=coherence,
         looks=looks,
         pairs=pairs,
+        phase_statistics=errors.phase_statistics,
         quantile=quick_difference_quantile,
     )
 

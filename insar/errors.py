@@ -17,6 +17,7 @@ __all__ = [
     "ErrorBudget",
     "ErrorSource",
     "HeldConstant",
+    "PhaseStatistics",
     "Scale",
     "SharedBy",
     "Weighting",
@@ -54,6 +55,15 @@ class BaselineDecorrelation(StrEnum):
     """No filtering: the coherence falls with the common share of the bands."""
     NONE = "none"
     """Neglected (Li 2009)."""
+
+
+class PhaseStatistics(StrEnum):
+    """What the phase noise of a pair follows from its coherence and looks by."""
+
+    EXACT = "exact"
+    """The exact multilook distribution: `insar.statistics`."""
+    CRAMER_RAO = "cramer_rao"
+    """The Cramér-Rao bound, which exact noise meets at many looks."""
 
 
 class HeldConstant(StrEnum):
@@ -114,8 +124,9 @@ class ErrorBudget:
         along track where the radar has an azimuth resolution.
     held_constant : what a target keeps while its height changes.
     coherence : the other factors of the coherence.
-    phase_std : standard deviation of the phase of every pair instead of the Cramér-Rao bound of
-        its coherence; only with ``Weighting.PAIRS`` [rad].
+    phase_statistics : what phase noise follows from coherence and looks by.
+    phase_std : standard deviation of the phase of every pair instead of what follows from its
+        coherence; only with ``Weighting.PAIRS`` [rad].
 
     Raises
     ------
@@ -140,6 +151,7 @@ class ErrorBudget:
     baseline_decorrelation: BaselineDecorrelation = BaselineDecorrelation.FILTERED
     held_constant: HeldConstant = HeldConstant.DOPPLER
     coherence: CoherenceBudget = field(default=CoherenceBudget())
+    phase_statistics: PhaseStatistics = PhaseStatistics.EXACT
     phase_std: float | None = None
 
     def __post_init__(self) -> None:

@@ -119,7 +119,7 @@ def height_error(
     ...               images=((0, 0), (0, 1)))
     >>> positions = np.array([[[0.0, 0.0, 0.0], [100.0, 0.0, 300.0]]])  # (S, N, 3) RTN [m]
     >>> height_error(positions, scene, radar=radar, errors=ErrorBudget()).total.round(3)
-    array([0.32])
+    array([0.334])
     """
     model = phase_model(positions, scene, radar=radar, errors=errors)
     return height_error_of(model, scene=scene, radar=radar, errors=errors)

@@ -7,11 +7,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .errors import ErrorBudget, Scale, SharedBy, Weighting
+from .errors import BaselineDecorrelation, ErrorBudget, PhaseStatistics, Scale, SharedBy, Weighting
 from .image_model import ImageModel, image_information, image_model, pair_noise
 from .phase_information import independent_pairs_information, pair_phase_variance
+from .phase_noise import lessen_information, pair_efficiency
 from .radar import Radar
 from .scene import Scene
+from .statistics import efficiency_curves
 
 Array = NDArray[np.float64]
 
@@ -22,7 +24,8 @@ class PhaseModel(NamedTuple):
     Attributes
     ----------
     vertical_wavenumber : (..., S, M) — kz of each image relative to the first [rad/m].
-    information : (..., S, M, M) — Fisher information of the noise, rows summing to zero [1/rad²].
+    information : (..., S, M, M) — information of the noise, rows summing to zero: Fisher's, and
+        under the exact phase statistics lessened pair by pair [1/rad²].
     nuisance : source → (..., S, M, R) — factor F_s of the errors that images share, relative to
         the first image [rad], with ε_s independent and of unit variance.
     pair_variance : source → (..., S, K) — variances that are independent from pair to pair
@@ -79,6 +82,9 @@ def phase_model(
     scale |= {name: getattr(errors, name).scale for name in nuisance}
     if errors.weighting is Weighting.JOINT:
         information = image_information(images, radar=radar, errors=errors)
+        if errors.phase_statistics is PhaseStatistics.EXACT:
+            efficiency = _efficiency(images, radar, errors)
+            information = lessen_information(information, efficiency, pairs=radar.image_pairs)
         return PhaseModel(kz, information, nuisance, {}, scale)
 
     pair_variance = {"phase": _pair_variance(images, radar, errors)}
@@ -102,4 +108,17 @@ def _pair_variance(images: ImageModel, radar: Radar, errors: ErrorBudget) -> Arr
     if errors.phase_std is not None:
         coherent = (noise.coherence > 0.0) & (noise.looks > 0.0)
         return np.where(coherent, errors.phase_std**2, np.inf)
-    return pair_phase_variance(noise.coherence, looks=noise.looks)
+    bound = pair_phase_variance(noise.coherence, looks=noise.looks)
+    if errors.phase_statistics is PhaseStatistics.CRAMER_RAO:
+        return bound
+    return bound / _efficiency(images, radar, errors)
+
+
+def _efficiency(images: ImageModel, radar: Radar, errors: ErrorBudget) -> Array:
+    noise = pair_noise(images, radar=radar, errors=errors)
+    varies = errors.baseline_decorrelation is BaselineDecorrelation.UNFILTERED
+    if varies or images.pair_factor is not None:
+        return pair_efficiency(noise.coherence, noise.looks)
+    first, second = radar.image_pairs.T  # coherence stays, looks vary from design to design
+    steady = efficiency_curves(images.amplitude[:, first] * images.amplitude[:, second])
+    return steady(noise.looks)

@@ -9,14 +9,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.special import ndtri
 
-from .errors import ErrorBudget
+from .errors import ErrorBudget, PhaseStatistics
 from .height import height_error_of
 from .image_model import pair_coherence
-from .phase_information import pair_phase_variance
 from .phase_model import PhaseModel, phase_model
 from .radar import Radar
 from .scene import Scene
-from .statistics import difference_quantile
+from .statistics import cramer_rao_std, difference_quantile, phase_std
 
 Array = NDArray[np.float64]
 
@@ -61,7 +60,12 @@ def point_to_point_error(
         return error.relative * _normal(level)
     coherence, looks = pair_coherence(positions, scene, radar=radar, errors=errors)
     factor = point_to_point_factor(
-        model, coherence=coherence, looks=looks, pairs=radar.image_pairs, level=level
+        model,
+        coherence=coherence,
+        looks=looks,
+        pairs=radar.image_pairs,
+        phase_statistics=errors.phase_statistics,
+        level=level,
     )
     return error.relative * factor
 
@@ -72,6 +76,7 @@ def point_to_point_factor(
     coherence: ArrayLike,
     looks: ArrayLike,
     pairs: NDArray[np.intp],
+    phase_statistics: PhaseStatistics,
     level: float = 0.9,
     quantile: Callable[..., Array] = difference_quantile,
 ) -> Array:
@@ -82,6 +87,7 @@ def point_to_point_factor(
     model : the phase model of the designs.
     coherence, looks : (..., S, K) — of each pair of images, as from `pair_coherence`.
     pairs : (K, 2) — the images of each pair, `Radar.image_pairs`.
+    phase_statistics : what the model was built with.
     level : scalar — share of the pairs of points that keep the bound, between 0 and 1.
     quantile : of the difference of two phases; `statistics.quick.quick_difference_quantile` is
         much faster for many pairs, within 1e-3.
@@ -111,7 +117,8 @@ def point_to_point_factor(
     )
     told = (weight > 0.0) & (gamma > 0.0) & (number > 0.0)
     gamma, number = np.where(told, gamma, 0.5), np.where(told, number, 1.0)
-    assumed = np.sqrt(pair_phase_variance(gamma, looks=number))
+    deviation = phase_std if phase_statistics is PhaseStatistics.EXACT else cramer_rao_std
+    assumed = deviation(gamma, looks=number)
     factor = np.full(told.shape, _normal(level))
     exact = quantile(gamma[told], looks=number[told], level=level)
     factor[told] = exact / assumed[told]

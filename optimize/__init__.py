@@ -20,6 +20,7 @@ from .differential import DifferentialSettings
 from .findings import findings
 from .genetic import GeneticSettings
 from .islands import IslandSettings, SearchMethod
+from .noise_excess import NoiseExcess, noise_excess
 from .problem import Evaluation, Problem
 from .progress import GenerationRecord, Keeper
 from .refuting import RefutationSettings, refuted
@@ -53,6 +54,7 @@ __all__ = [
     "Keeper",
     "Limit",
     "Motion",
+    "NoiseExcess",
     "OpenNumber",
     "OptimizeResult",
     "Over",
@@ -71,6 +73,7 @@ __all__ = [
     "findings",
     "looks_for",
     "measure",
+    "noise_excess",
     "possible",
     "refuted",
     "search",

@@ -8,6 +8,7 @@ from formation.constants import EARTH_GRAVITATIONAL_PARAMETER
 from insar import BaselineDecorrelation, HeightStatus, HeldConstant, SharedBy, Weighting
 
 from .assessment import Assessment
+from .noise_excess import noise_excess
 from .problem import Problem
 
 _COLLISION = 10.0
@@ -81,6 +82,7 @@ def _of_the_formation(problem: Problem, assessment: Assessment) -> list[str]:
             f"{len(dark)} of {len(assessment.pairs)} pairs reach their critical baseline: they "
             "have no coherence and carry no information of their own."
         )
+    notes += _of_phase_noise(problem, assessment)
     notes += _of_collision(problem, assessment)
     notes += _of_doppler(problem, assessment)
     beyond = [pair for pair in assessment.pairs if np.any(pair.baseline_over_critical >= 1.0)]
@@ -90,6 +92,18 @@ def _of_the_formation(problem: Problem, assessment: Assessment) -> list[str]:
             "images have no coherence; the error model of this study counts them all the same."
         )
     return notes
+
+
+def _of_phase_noise(problem: Problem, assessment: Assessment) -> list[str]:
+    """Phase noise above the Cramér-Rao bound, where the study counts the bound only."""
+    noise = noise_excess(problem, assessment)
+    if noise is None or noise.counted:
+        return []
+    return [
+        f"The phase noise is {100.0 * noise.excess:.0f} % larger than the Cramér-Rao bound that "
+        f"this study counts (coherence {noise.coherence:.2f}, {noise.looks:.3g} looks): "
+        "errors.phase_statistics: exact counts it."
+    ]
 
 
 def _of_collision(problem: Problem, assessment: Assessment) -> list[str]:

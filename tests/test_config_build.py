@@ -381,9 +381,10 @@ def test_the_evaluated_example_is_a_feasible_ladder():
     assessment = assess(setup.problem, setup.formation.states, label="ladder", names=setup.names)
     assert assessment.feasible
     baselines = [abs(pair.perpendicular_baseline).max() for pair in assessment.pairs[:2]]
-    # The realistic ladder of physics.md section 2: near 315 m and 1350 m, 0.25 m in total.
-    np.testing.assert_allclose(baselines, [315.0, 1350.0], atol=1.0)
-    assert assessment.height_error.region == pytest.approx(0.25, abs=0.01)
+    # The realistic ladder of physics.md section 2, near 315 m and 1350 m with 0.25 m in total, is a
+    # little shorter where the exact phase noise counts instead of its bound.
+    np.testing.assert_allclose(baselines, [315.0, 1339.0], atol=1.0)
+    assert assessment.height_error.region == pytest.approx(0.258, abs=0.005)
     drift = drift_per_orbit(setup.formation.states, mean_motion=setup.orbit.mean_motion)
     assert np.abs(drift).max() < 1.0
 

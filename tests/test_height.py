@@ -19,6 +19,7 @@ from insar import (
     ErrorBudget,
     ErrorSource,
     HeightStatus,
+    PhaseStatistics,
     Radar,
     Scale,
     Scene,
@@ -35,6 +36,7 @@ from insar import (
     ping_pong,
     scene_critical_baseline,
 )
+from insar.statistics import cramer_rao_std, phase_std
 
 PUBLISHED = tomllib.loads(
     (Path(__file__).parent / "published" / "error_model.toml").read_text(encoding="utf-8")
@@ -186,16 +188,20 @@ def test_coherence_and_looks_of_a_pair_along_its_baseline(images):
 # -- closed forms --------------------------------------------------------------------------------
 
 
-def test_two_images_give_the_textbook_error():
+@pytest.mark.parametrize("statistics", PhaseStatistics)
+def test_two_images_give_the_textbook_error(statistics):
     """σ_h = HoA·σ_φ/2π, and a synchronization error HoA·δφ/2π beside it."""
     radar = radar_for(((0, 0), (0, 1)))
     positions = spread(np.array([[0.0, 0.0, 0.0], [200.0, 50.0, 400.0]]))
-    plain = ErrorBudget(baseline_decorrelation=BaselineDecorrelation.NONE)
+    plain = ErrorBudget(
+        baseline_decorrelation=BaselineDecorrelation.NONE, phase_statistics=statistics
+    )
     ambiguity = pair_geometry(positions, SCENE, radar=radar).height_of_ambiguity[:, 0]
     gamma = 1 / 1.1
-    noise = np.sqrt((1 - gamma**2) / (2 * 4.0 * gamma**2))
+    deviation = {PhaseStatistics.EXACT: phase_std, PhaseStatistics.CRAMER_RAO: cramer_rao_std}
+    noise = deviation[statistics](gamma, looks=4.0)
     error = height_error(positions, SCENE, radar=radar, errors=plain)
-    assert_allclose(error.total, ambiguity * noise / (2 * np.pi))
+    assert_allclose(error.total, ambiguity * noise / (2 * np.pi), rtol=1e-6)
     late = dataclasses.replace(plain, synchronization=ErrorSource(0.1, SharedBy.IMAGE))
     terms = height_error(positions, SCENE, radar=radar, errors=late).terms
     assert_allclose(terms["synchronization"], ambiguity * 0.1 / (2 * np.pi))

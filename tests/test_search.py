@@ -25,6 +25,7 @@ from insar import (
     BaselineDecorrelation,
     ErrorBudget,
     ErrorSource,
+    PhaseStatistics,
     Radar,
     Scene,
     SharedBy,
@@ -73,6 +74,7 @@ def realistic(mean_motion):
             position=ErrorSource(0.001, SharedBy.SATELLITE),
             azimuth=ErrorSource(1 / 562.5e3, SharedBy.ALL),
             range=ErrorSource(0.01, SharedBy.ALL),
+            phase_statistics=PhaseStatistics.CRAMER_RAO,  # as the published values have it
         )
         radius = limits.pop("max_radius", 1353.66)
         constraints = Constraints(
@@ -197,6 +199,7 @@ def test_ladder_with_unfiltered_decorrelation(
         ErrorBudget.li2009(),
         azimuth=ErrorSource(np.deg2rad(0.01), SharedBy.ALL),
         phase_std=None,
+        phase_statistics=PhaseStatistics.CRAMER_RAO,
         weighting=weighting,
         baseline_decorrelation=BaselineDecorrelation.UNFILTERED,
     )

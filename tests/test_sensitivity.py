@@ -14,6 +14,7 @@ from insar import (
     ErrorSource,
     HeldConstant,
     Ionosphere,
+    PhaseStatistics,
     Radar,
     Scale,
     Scene,
@@ -58,7 +59,8 @@ def _study(radius=150.0, *, radar=RADAR, prior=4.0, **errors):
         mean_motion=MEAN_MOTION,
         scene=SCENE,
         radar=radar,
-        errors=ErrorBudget(**errors),
+        # Closed forms are of the Cramér-Rao bound.
+        errors=ErrorBudget(phase_statistics=PhaseStatistics.CRAMER_RAO, **errors),
         constraints=Constraints(prior_height_std=prior),
     )
     positions = problem.population(states[None]).positions[0]

@@ -15,6 +15,7 @@ from insar import (
     ErrorBudget,
     ErrorSource,
     PhaseModel,
+    PhaseStatistics,
     Radar,
     Scene,
     SharedBy,
@@ -31,7 +32,9 @@ from insar.unwrapping import bootstrap_failure, float_covariance, success_ceilin
 SCENE = Scene.broadside_strip(
     times=[0.0], look_angle=np.deg2rad(23), altitude=514e3, earth_radius=6_378_137.0
 )
-BUDGET = ErrorBudget(position=ErrorSource(0.001, SharedBy.SATELLITE))
+BUDGET = ErrorBudget(
+    position=ErrorSource(0.001, SharedBy.SATELLITE), phase_statistics=PhaseStatistics.CRAMER_RAO
+)
 
 
 def radar_for(count):

@@ -23,6 +23,7 @@ from insar import (
     ErrorBudget,
     ErrorSource,
     HeldConstant,
+    PhaseStatistics,
     Radar,
     Scene,
     SharedBy,
@@ -64,7 +65,12 @@ PRINTED_AZIMUTH = math.radians(LI2009["table1"]["azimuth_error_deg"])
 INDEPENDENT = dataclasses.replace(PRESET, azimuth=ErrorSource(PRINTED_AZIMUTH, SharedBy.PAIR))
 SHARED = dataclasses.replace(PRESET, azimuth=ErrorSource(PRINTED_AZIMUTH, SharedBy.ALL))
 DOPPLER = dataclasses.replace(SHARED, held_constant=HeldConstant.DOPPLER)
-JOINT = dataclasses.replace(DOPPLER, phase_std=None, weighting=Weighting.JOINT)
+JOINT = dataclasses.replace(
+    DOPPLER,
+    phase_std=None,
+    phase_statistics=PhaseStatistics.CRAMER_RAO,
+    weighting=Weighting.JOINT,
+)
 UNFILTERED = dataclasses.replace(JOINT, baseline_decorrelation=BaselineDecorrelation.UNFILTERED)
 FILTERED = dataclasses.replace(JOINT, baseline_decorrelation=BaselineDecorrelation.FILTERED)
 

@@ -18,6 +18,7 @@ from insar import (
     ErrorBudget,
     ErrorSource,
     HeldConstant,
+    PhaseStatistics,
     Scene,
     SharedBy,
     Weighting,
@@ -263,6 +264,7 @@ def _optimum_checks() -> Iterator[Check]:
         errors = dataclasses.replace(
             SHARED,
             phase_std=None,
+            phase_statistics=PhaseStatistics.CRAMER_RAO,
             weighting=weighting,
             baseline_decorrelation=BaselineDecorrelation.UNFILTERED,
         )
@@ -294,6 +296,7 @@ def _realistic_checks() -> Iterator[Check]:
             position=ErrorSource(0.001, SharedBy.SATELLITE),
             azimuth=ErrorSource(1.0 / float(scene.slant_range.mean()), SharedBy.ALL),
             range=ErrorSource(0.01, SharedBy.ALL),
+            phase_statistics=PhaseStatistics.CRAMER_RAO,  # the reference's
         ),
         constraints=Constraints(
             max_radius=limit,

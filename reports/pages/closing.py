@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from insar import Calibration, ErrorSource, Ionosphere, Scene
+from insar import Calibration, ErrorBudget, ErrorSource, Ionosphere, Scene
 from insar.atmosphere import TEC_UNIT
 from optimize import Problem
 
@@ -96,8 +96,15 @@ def _setting(problem: Problem, critical_baseline: float, study: StudyInfo) -> li
         ("calibration", _calibration(errors.calibration)),
         ("weighting", str(errors.weighting)),
         ("baseline decorrelation", str(errors.baseline_decorrelation)),
+        *_noise(errors),
         ("held constant while the height changes", str(errors.held_constant)),
     ]
+
+
+def _noise(errors: ErrorBudget) -> list[tuple[str, str]]:
+    if errors.phase_std is not None:
+        return [("phase noise of every pair", quantity(plain(errors.phase_std), "rad"))]
+    return [("phase statistics", str(errors.phase_statistics))]
 
 
 def _orbit(study: StudyInfo) -> list[tuple[str, str]]:

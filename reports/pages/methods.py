@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from insar import BaselineDecorrelation, HeldConstant, Weighting
+from insar import BaselineDecorrelation, HeldConstant, PhaseStatistics, Weighting
 from insar.observe import Observation
 from insar.observe.agile.staring import StaringScene
 from optimize import Assessment, Problem, SearchMethod, SearchResult
@@ -26,6 +26,12 @@ _RODRIGUEZ = Reference(
     "E. Rodriguez and J. M. Martin, “Theory and design of interferometric synthetic aperture "
     "radars,” IEE Proc. F 139(2), 147–159, 1992.",
     "10.1049/ip-f-2.1992.0018",
+)
+_LEE = Reference(
+    "J.-S. Lee, K. W. Hoppel, S. A. Mango and A. R. Miller, “Intensity and phase statistics of "
+    "multilook polarimetric and interferometric SAR imagery,” IEEE Trans. Geosci. Remote Sens. "
+    "32(5), 1017–1028, 1994.",
+    "10.1109/36.312890",
 )
 _GATELLI = Reference(
     "F. Gatelli et al., “The wavenumber shift in SAR interferometry,” IEEE Trans. Geosci. Remote "
@@ -260,6 +266,11 @@ def _height(problem: Problem, cite: Citations) -> tuple[Block, ...]:
         )
     if errors.phase_std is None:
         noise = f"by the Cramér-Rao bound of their coherence and looks {cite(_RODRIGUEZ)}"
+        if errors.phase_statistics is PhaseStatistics.EXACT:
+            noise += (
+                ", each pair's part lessened to what the exact multilook phase distribution "
+                f"{cite(_LEE)} has"
+            )
     else:
         noise = "with the phase noise that the study states"
     decorrelation, works = _DECORRELATION[errors.baseline_decorrelation]

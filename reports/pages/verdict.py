@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from insar.simulation import Verdict
-from optimize import Assessment, EvaluateResult, OptimizeResult, Problem
+from optimize import Assessment, EvaluateResult, OptimizeResult, Problem, noise_excess
 
 from ..certificate_words import verdict_text
 from ..document import Block, Callout, Metric, Metrics, Status, Strong, Text
@@ -23,6 +23,7 @@ from ..reading import (
 from ..refutation_words import VERDICTS, bits, finding, worst_of
 from ..wording import (
     counted,
+    fixed,
     formation_name,
     joined,
     meters,
@@ -178,6 +179,7 @@ def _remarks(problem: Problem, formation: Assessment) -> list[Text]:
         remarks.append((Strong("No height is measured: "), f"{reason}."))
     else:
         remarks.append(_limited_by(formation))
+        remarks += _phase_noise(problem, formation)
         remarks.append(_unwrapping(problem, formation))
         remarks += _refutation(formation)
     remarks += [
@@ -229,6 +231,22 @@ def _limited_by(formation: Assessment) -> Text:
         )
     free = formation.constraints and not broken(formation)
     return (*text, "; no limit is active." if free else ".")
+
+
+def _phase_noise(problem: Problem, formation: Assessment) -> list[Text]:
+    """Phase noise above the Cramér-Rao bound, which the model counts."""
+    noise = noise_excess(problem, formation)
+    if noise is None or not noise.counted:
+        return []
+    return [
+        (
+            "The phase noise is up to ",
+            Strong(percent(noise.excess)),
+            " larger than the Cramér-Rao bound (coherence ",
+            fixed(noise.coherence, 2),
+            f", {noise.looks:.3g} looks in a pair that matters): the exact statistics are counted.",
+        )
+    ]
 
 
 def _unwrapping(problem: Problem, formation: Assessment) -> Text:
