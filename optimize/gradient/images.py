@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
-import numpy as np
+from collections.abc import Callable
 
-from insar import BaselineDecorrelation
+import numpy as np
+from numpy.typing import NDArray
+
+from insar import BaselineDecorrelation, ErrorBudget, PhaseStatistics, Radar
 from insar.baselines import scene_critical_baseline
 from insar.coherence import doppler_offset
 from insar.image_model import image_model
+from insar.statistics import efficiency_curves
 
 from ..constraints import Population
 from ..problem import Problem
 from .edges import Bands
+
+Array = NDArray[np.float64]
 
 
 def bands_of(population: Population, problem: Problem) -> Bands | None:
@@ -32,10 +38,11 @@ def bands_of(population: Population, problem: Problem) -> Bands | None:
         return None
     squared = images.amplitude**2
     weight = np.broadcast_to(squared / (1.0 - squared), images.range_offset.shape)
+    efficiency = _efficiency(images.amplitude, radar, errors)
     rate = 1.0 / scene_critical_baseline(scene, radar)
     if errors.baseline_decorrelation is BaselineDecorrelation.NONE:
         nothing = np.zeros_like(images.range_offset)
-        return Bands(nothing, None, weight, radar.looks, 0.0 * rate, None, None)
+        return Bands(nothing, None, weight, radar.looks, 0.0 * rate, None, efficiency)
     along = images.doppler_offset
     slope = None
     if along is not None and radar.azimuth_resolution is not None:
@@ -45,4 +52,14 @@ def bands_of(population: Population, problem: Problem) -> Bands | None:
             slant_range=scene.slant_range,
             azimuth_resolution=radar.azimuth_resolution,
         )
-    return Bands(images.range_offset, along, weight, radar.looks, rate, slope, None)
+    return Bands(images.range_offset, along, weight, radar.looks, rate, slope, efficiency)
+
+
+def _efficiency(
+    amplitude: Array, radar: Radar, errors: ErrorBudget
+) -> Callable[[Array], Array] | None:
+    """Common areas of the bands (S, M, M) → efficiency of the pairs; None under Cramér-Rao."""
+    if errors.phase_statistics is PhaseStatistics.CRAMER_RAO:
+        return None
+    curves = efficiency_curves(amplitude[:, :, None] * amplitude[:, None, :])
+    return lambda area: curves(radar.looks * area)
