@@ -89,6 +89,7 @@ def test_no_formation_of_a_box_is_better_than_its_bound(seed, satellites):
         wavenumbers=group.wavenumbers,
         shifts=group.shifts,
         amplitude=group.amplitude,
+        alike=group.alike,
         range_variance=group.range_variance,
         prior_height_std=problem.constraints.prior_height_std,
     )

@@ -13,12 +13,16 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from insar import BaselineDecorrelation, ErrorBudget, Radar, Weighting
+from insar import BaselineDecorrelation, ErrorBudget, PhaseStatistics, Radar, Weighting
 from insar.phase_information import pair_phase_variance
+from insar.phase_noise import pair_efficiency
 
 from .shared import pair_variance
 
 Array = NDArray[np.float64]
+
+_TABLE = 5e-5
+"""Part by which a tabulated efficiency may be off, with room to spare."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -29,6 +33,7 @@ class InformationBound:
     ----------
     radar, errors : what the phases tell.
     amplitude : scalar — the largest γ_i of an image.
+    alike : whether all images have that amplitude.
     offsets : (M, N − 1) — band offsets of the images relative to the first, per gap [bandwidths].
 
     Notes
@@ -40,6 +45,7 @@ class InformationBound:
     radar: Radar
     errors: ErrorBudget
     amplitude: float
+    alike: bool
     offsets: Array
 
     def upper(self, lower: Array, upper: Array) -> Array:
@@ -57,15 +63,34 @@ class InformationBound:
         decorrelation = self.errors.baseline_decorrelation
         if self.errors.weighting is Weighting.PAIRS:
             return self._laplacian(self._pair_weights(least))
-        if not self.errors.coherence.spectral:
+        shifted = self.radar.azimuth_resolution is not None and not self.radar.pursuit
+        unfiltered = decorrelation is BaselineDecorrelation.UNFILTERED
+        if not self.errors.coherence.spectral or (unfiltered and shifted):
             return self._of_signal(len(least))
-        if decorrelation is BaselineDecorrelation.UNFILTERED:
-            if self.radar.azimuth_resolution is not None and not self.radar.pursuit:
-                return self._of_signal(len(least))  # azimuth bands may differ by anything
+        if unfiltered:
             return self._unfiltered(least, most)
         if decorrelation is BaselineDecorrelation.NONE:
             least, most = np.zeros_like(least), np.zeros_like(most)
-        return self._laplacian(self._filtered_weights(least, most))
+        weights = self._filtered_weights(least, most)
+        # Azimuth bands that differ may leave a pair any number of looks, and raise its weight
+        # where a third image is missing: there only the Cramér-Rao bound is sure.
+        free = shifted and decorrelation is not BaselineDecorrelation.NONE
+        return self._laplacian(weights if free else weights * self._efficiency(least, most))
+
+    def _efficiency(self, least: Array, most: Array) -> Array:
+        """Largest part of the Cramér-Rao information that each pair can have, (n, K).
+
+        With the looks it first falls and then rises, so it is largest at an end of a box; where
+        amplitudes differ it counts as 1.
+        """
+        exact = self.errors.phase_statistics is PhaseStatistics.EXACT
+        if not exact or not self.alike:
+            return np.ones_like(least)
+        ends = [
+            pair_efficiency(self._pair_coherence, self.radar.looks * np.maximum(0.0, 1.0 - shift))
+            for shift in (least, most)
+        ]
+        return np.asarray(np.minimum(1.0, np.maximum(*ends) * (1.0 + _TABLE)))
 
     def _shifts(self, lower: Array, upper: Array) -> tuple[Array, Array]:
         """Least and largest |o_j − o_i| of each pair over the boxes, (n, K) each."""
@@ -85,10 +110,19 @@ class InformationBound:
         if self.errors.phase_std is not None:
             variance = np.where(band > 0.0, self.errors.phase_std**2, np.inf)
         elif decorrelation is BaselineDecorrelation.UNFILTERED:
-            variance = pair_phase_variance(self._pair_coherence * band, looks=looks)
+            variance = self._pair_noise(self._pair_coherence * band, np.full_like(band, looks))
         else:
-            variance = pair_phase_variance(self._pair_coherence, looks=looks * band)
+            variance = self._pair_noise(self._pair_coherence, looks * band)
         return np.asarray(1.0 / (variance + pair_variance(self.radar, self.errors)))
+
+    def _pair_noise(self, coherence: Array, looks: Array) -> Array:
+        """Variance of pairs, which falls with coherence and looks, exactly too."""
+        variance = pair_phase_variance(coherence, looks=looks)
+        if self.errors.phase_statistics is not PhaseStatistics.EXACT:
+            return variance
+        with np.errstate(invalid="ignore"):
+            exact = variance / pair_efficiency(coherence, looks) * (1.0 - _TABLE)
+        return np.where(np.isfinite(variance), exact, np.inf)
 
     def _filtered_weights(self, least: Array, most: Array) -> Array:
         """2L u_i u_j ∫ df/(1 + U) over the common band, U the sum of u over who sees it.
@@ -132,7 +166,19 @@ class InformationBound:
         """
         images = len(self.radar.images) - 1
         known = 2.0 * self.radar.looks * self._phase_weight[0]
+        if self._reweighted:
+            return self._laplacian(np.full((count, len(self.radar.image_pairs)), known))
         return np.broadcast_to(known * np.eye(images), (count, images, images))
+
+    @property
+    def _reweighted(self) -> bool:
+        """Whether exact statistics lessen each pair by itself.
+
+        Of a general coherence matrix some pairs may have a negative weight; to lessen those adds
+        information. No weight is above 2Lu, and those that are positive bound the rest.
+        """
+        exact = self.errors.phase_statistics is PhaseStatistics.EXACT
+        return exact and len(self.radar.images) > 2
 
     def _unfiltered(self, least: Array, most: Array) -> Array:
         """2L(Γ∘Γ⁻¹ − I) is not monotone in the coherences: bounded by Γ within an interval.
@@ -158,7 +204,15 @@ class InformationBound:
         noise = 1.0 - self._amplitude**2
         close = excess.max(axis=-1) < 0.5 * noise.min()
         margin = excess[close][:, :, None] * np.eye(count)
-        product = (coherence[close] + margin) * np.linalg.inv(coherence[close] - margin)
+        largest = np.linalg.inv(coherence[close] - margin)
+        if self._reweighted:
+            smallest = np.linalg.inv(coherence[close] + margin)
+            room = np.sqrt(np.maximum((largest - smallest)[:, index, index], 0.0))
+            inverse = 0.5 * (largest + smallest - room[:, :, None] * room[:, None, :])
+            weights = np.full((len(least), len(first)), self._phase_weight[0])
+            weights[close] = np.maximum(0.0, -high[close] * inverse[:, first, second])
+            return self._laplacian(2.0 * self.radar.looks * weights)
+        product = (coherence[close] + margin) * largest
         bound[close] = product - np.eye(count)
         return np.asarray(2.0 * self.radar.looks * bound[:, 1:, 1:])
 

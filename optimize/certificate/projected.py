@@ -25,6 +25,9 @@ Array = NDArray[np.float64]
 _ROUNDING = 1e-8
 """Slack, in parts, that the bounds leave for the rounding of limits and arithmetic."""
 
+_ALIKE = 1e-6
+"""Amplitudes that differ by no more count as one."""
+
 _MAX_GROUPS = 12
 """Trees that the segments of a scene share at most."""
 
@@ -35,13 +38,14 @@ class SegmentGroup(NamedTuple):
     Attributes
     ----------
     members : (n,) — 0-based segments.
-    wavenumbers, shifts, amplitude, range_variance : as in `SegmentModel`.
+    wavenumbers, shifts, amplitude, alike, range_variance : as in `SegmentModel`.
     """
 
     members: NDArray[np.intp]
     wavenumbers: tuple[float, float]
     shifts: tuple[float, float]
     amplitude: float
+    alike: bool
     range_variance: float
 
 
@@ -129,6 +133,7 @@ def projected_bound(
                 wavenumbers=group.wavenumbers,
                 shifts=group.shifts,
                 amplitude=group.amplitude,
+                alike=group.alike,
                 range_variance=group.range_variance,
                 prior_height_std=_prior(problem),
             )
@@ -181,8 +186,9 @@ def _groups(problem: Problem, seen: Projection, reach: Array) -> list[SegmentGro
     scene, radar = problem.scene, problem.radar
     wavenumber = 2.0 * np.pi / radar.wavelength * reach / seen.lever
     shift = reach / scene_critical_baseline(scene, radar)
-    amplitude = image_amplitude(scene, radar=radar, errors=problem.errors).max(axis=-1)
-    amplitude = np.broadcast_to(amplitude, (len(scene),))
+    every = image_amplitude(scene, radar=radar, errors=problem.errors)
+    every = np.broadcast_to(every, (len(scene), len(radar.images)))
+    amplitude = every.max(axis=-1)
     common = common_height_errors(scene, radar=radar, errors=problem.errors)
     variance = sum((part**2 for part in common.values()), start=np.zeros(len(scene)))
     properties = np.log(np.stack([wavenumber, shift, amplitude], axis=-1))
@@ -202,6 +208,7 @@ def _groups(problem: Problem, seen: Projection, reach: Array) -> list[SegmentGro
                 _range(wavenumber[members]),
                 _range(shift[members]),
                 float(amplitude[members].max()),
+                bool(np.ptp(every[members]) <= _ALIKE),
                 float(variance[members].min()) * (1.0 - _ROUNDING),
             )
         )

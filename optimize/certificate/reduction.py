@@ -19,7 +19,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from insar import BaselineDecorrelation, SharedBy, Weighting
+from insar import BaselineDecorrelation, PhaseStatistics, SharedBy, Weighting
 from insar.coherence import image_amplitude
 from insar.height import common_height_errors
 from insar.phase_information import pair_phase_variance
@@ -170,6 +170,8 @@ def what_is_left_out(problem: Problem) -> tuple[str, ...]:
     left = []
     if errors.baseline_decorrelation is not BaselineDecorrelation.NONE:
         left.append("decorrelation by the baseline")
+    if errors.phase_std is None and errors.phase_statistics is PhaseStatistics.EXACT:
+        left.append("what the exact phase statistics lose against the Cramér-Rao bound")
     if not errors.coherence.spectral:
         left.append("decorrelation by volume or time")
     amplitude = image_amplitude(problem.scene, radar=problem.radar, errors=errors)
@@ -239,5 +241,8 @@ def _image_information(problem: Problem) -> float:
     whole = 2.0 * radar.looks * weight
     unfiltered = errors.baseline_decorrelation is BaselineDecorrelation.UNFILTERED
     if unfiltered or not errors.coherence.spectral:
+        # Exact statistics lessen each pair by itself: see `InformationBound`.
+        if errors.phase_statistics is PhaseStatistics.EXACT and count > 2:
+            return whole * count
         return whole  # see `InformationBound`: what the signal without noise would tell
     return whole * count * weight / (1.0 + count * weight)

@@ -61,6 +61,7 @@ class SegmentModel:
         over the segments that the model stands for [rad/m].
     shifts : (least, largest) — band offset at that coordinate [bandwidths].
     amplitude : scalar — the largest γ_i of an image.
+    alike : whether all images have that amplitude.
     range_variance : scalar — squared height error that no formation changes, the smallest [m²].
     prior_height_std : scalar — None where nothing need be unwrapped [m].
     """
@@ -71,6 +72,7 @@ class SegmentModel:
     wavenumbers: tuple[float, float]
     shifts: tuple[float, float]
     amplitude: float
+    alike: bool
     range_variance: float
     prior_height_std: float | None
 
@@ -131,6 +133,7 @@ class SegmentModel:
             radar=self.radar,
             errors=self.errors,
             amplitude=self.amplitude,
+            alike=self.alike,
             offsets=self.gap_matrix,
         )
 
