@@ -28,6 +28,16 @@ from insar import (
     snr_coherence,
     two_baseline_probability,
 )
+from insar.coherence import (
+    PenetratedVolume,
+    UniformVolume,
+    ambiguity_coherence,
+    azimuth_resolution,
+    coregistration_coherence,
+    doppler_offset,
+    quantization_coherence,
+    quantization_distortion,
+)
 from insar.phase_information import pair_phase_variance
 from optimize import (
     Constraints,
@@ -167,6 +177,35 @@ def _information_checks() -> Iterator[Check]:
     for ratio, key in [(4.0, "0.9889"), (6.0, "0.9149")]:
         value = two_baseline_probability(short_std=0.3, long_std=0.3, covariance=0.0, ratio=ratio)
         yield Check(f"unwrapping, 0.3 rad, ratio {ratio:.0f}", key, "erf(π/√2σ)", float(value))
+
+
+def _coherence_checks() -> Iterator[Check]:
+    for bits, distortion in [(1, "0.3634"), (2, "0.1175"), (3, "0.03454"), (4, "0.009497")]:
+        value = quantization_distortion(bits)
+        yield Check(
+            f"quantization distortion, bits: {bits}", distortion, "Max 1960, Table I", value
+        )
+    for bits, reference in [(2, "0.8825"), (3, "0.9655"), (4, "0.9905")]:
+        value = float(quantization_coherence(bits))
+        yield Check(f"coherence left, bits: {bits}", reference, "1 − Max's distortion", value)
+    value = float(ambiguity_coherence(rasr=0.01, aasr=0.01))
+    yield Check("ambiguities, RASR = AASR = −20 dB", "0.9803", "1/1.01²", value)
+    value = float(coregistration_coherence(0.1))
+    yield Check("co-registration by 0.1 cell", "0.9836", "sinc 0.1", value)
+    kz = 2.0 * math.pi / 80.0
+    factor = UniformVolume(height=20.0).coherence(kz, incidence=0.5)
+    yield Check("20 m of volume, HoA 80 m", "0.9003", "sinc 1/4", float(np.abs(factor)))
+    yield Check("its height bias [m]", "10", "the middle", float(np.angle(factor)) / kz)
+    factor = PenetratedVolume(depth=5.0).coherence(kz, incidence=0.5)
+    reference = "1/√(1 + (kz d)²), d = 5 m"
+    yield Check("exponential, HoA 80 m", "0.9308", reference, float(np.abs(factor)))
+    shift = doppler_offset(1201.0, wavelength=0.031, slant_range=557.58e3, azimuth_resolution=3.0)
+    yield Check("azimuth bands, 1201 m along track", "0.7916", "1 − Bρ/λr", 1.0 - float(shift))
+    speed = {"speed": 7605.0, "look_angle": math.radians(32.057), "incidence": math.radians(35.0)}
+    value = float(azimuth_resolution(2765.0, **speed))
+    yield Check(
+        "azimuth resolution of 2765 Hz, 35° [m]", "2.542", "7605 · 0.92539 · 0.99868/2765", value
+    )
 
 
 def _li2009_checks() -> Iterator[Check]:
@@ -329,6 +368,7 @@ def _realistic_checks() -> Iterator[Check]:
 TABLES: dict[str, Callable[[], str]] = {
     "geometry_checks": lambda: check_table(_geometry_checks()),
     "information_checks": lambda: check_table(_information_checks()),
+    "coherence_checks": lambda: check_table(_coherence_checks()),
     "li2009_checks": lambda: check_table(_li2009_checks()),
     "optimum_checks": lambda: check_table(_optimum_checks()),
     "realistic_checks": lambda: check_table(_realistic_checks()),
