@@ -13,6 +13,7 @@ from enum import StrEnum
 from typing import Any, Final, NamedTuple
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
 from scipy.spatial.transform import Rotation
 
@@ -27,6 +28,10 @@ _NAMES: Final = {"X": "roll", "Y": "pitch", "Z": "yaw"}
 """Of the turns about the body's axes."""
 _NO_ROTATION: Final = 1e-6
 """Largest entry of C Cᵀ − 1 that is taken for rounding."""
+_ROUNDING: Final = 1e-13
+"""The same, below which nothing is gained by making the matrix orthogonal."""
+_TRUSTS: Final = tuple(int(part) for part in scipy.__version__.split(".")[:2]) >= (1, 17)
+"""Whether scipy can be told that a matrix is a rotation; else it always decomposes it."""
 
 
 class EulerSequence(StrEnum):
@@ -77,10 +82,10 @@ def euler_sequence(attitude: ArrayLike, sequence: EulerSequence) -> SequenceAngl
     ----------
     Han 2016 eq. (2) for 3-1-2.
     """
-    matrix, valid = _checked(attitude)
+    turns, valid = _checked(attitude)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", UserWarning)  # of the singularity: the mask tells
-        angles = _to_scipy(matrix).as_euler(sequence.axes).reshape(*valid.shape, 3)
+        angles = turns.as_euler(sequence.axes).reshape(*valid.shape, 3)
     angles = np.where(valid[..., None], angles, np.nan)
     named = dict(zip(sequence.axes, np.moveaxis(angles, -1, 0), strict=True))
     singular = np.abs(np.abs(angles[..., 1]) - np.pi / 2) < SINGULAR
@@ -155,8 +160,8 @@ def quaternion(attitude: ArrayLike) -> Array:
     (..., 4) — of the turn that takes the frame's axes to the body's; scalar last and not negative.
     NaN for no rotation.
     """
-    matrix, valid = _checked(attitude)
-    found = _to_scipy(matrix).as_quat(canonical=True).reshape(*valid.shape, 4)
+    turns, valid = _checked(attitude)
+    found = turns.as_quat(canonical=True).reshape(*valid.shape, 4)
     return np.where(valid[..., None], found, np.nan)
 
 
@@ -224,8 +229,8 @@ def axis_angle(attitude: ArrayLike) -> AxisAngle:
     ----------
     Han 2016 eq. (1).
     """
-    matrix, valid = _checked(attitude)
-    turn = _to_scipy(matrix).as_rotvec().reshape(*valid.shape, 3)
+    turns, valid = _checked(attitude)
+    turn = turns.as_rotvec().reshape(*valid.shape, 3)
     turn = np.where(valid[..., None], turn, np.nan)
     return AxisAngle(unit(turn), np.sqrt(dot(turn, turn)))
 
@@ -249,23 +254,26 @@ def attitude_of_axis_angle(axis: ArrayLike, angle: ArrayLike) -> Array:
     return np.where(valid[..., None, None], found, np.nan)
 
 
-def _checked(attitude: ArrayLike) -> tuple[Array, Mask]:
-    """Matrices, the unit matrix in place of what is no rotation, and where they are rotations."""
+def _checked(attitude: ArrayLike) -> tuple[Any, Mask]:
+    """Turns of the frame's axes to the body's, no turn for what is no rotation, and where it is one.
+
+    scipy's matrices act on vectors, ours on axes.
+    """
     matrix = np.asarray(attitude, dtype=np.float64)
-    excess = np.abs(matrix @ np.swapaxes(matrix, -1, -2) - np.eye(3)).max(axis=(-1, -2))
+    products = np.einsum("...ij,...kj->...ik", matrix, matrix)
+    excess = np.abs(products - np.eye(3)).max(axis=(-1, -2))
     proper = dot(np.cross(matrix[..., 0, :], matrix[..., 1, :]), matrix[..., 2, :]) > 0.0
     valid: Mask = proper & (excess < _NO_ROTATION)
-    return np.where(valid[..., None, None], matrix, np.eye(3)), valid
+    usable = np.where(valid[..., None, None], matrix, np.eye(3))
+    turns = _rows(np.swapaxes(usable, -1, -2), (3, 3))
+    if _TRUSTS and np.all(excess[valid] < _ROUNDING):
+        return Rotation.from_matrix(turns, assume_valid=True), valid
+    return Rotation.from_matrix(turns), valid
 
 
 def _rows(values: Array, shape: tuple[int, ...]) -> Array:
     """The same values with one leading axis: scipy before 1.17 knows no more."""
     return values.reshape(-1, *shape)
-
-
-def _to_scipy(attitude: Array) -> Any:
-    """Turns of the frame's axes to the body's: scipy's matrices act on vectors, ours on axes."""
-    return Rotation.from_matrix(_rows(np.swapaxes(attitude, -1, -2), (3, 3)))
 
 
 def _from_scipy(rotation: Any, shape: tuple[int, ...]) -> Array:
