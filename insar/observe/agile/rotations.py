@@ -255,7 +255,7 @@ def attitude_of_axis_angle(axis: ArrayLike, angle: ArrayLike) -> Array:
 
 
 def _checked(attitude: ArrayLike) -> tuple[Any, Mask]:
-    """Turns of the frame's axes to the body's, no turn for what is no rotation, and where it is one.
+    """Turns of the frame's axes to the body's, none for what is no rotation, and where it is one.
 
     scipy's matrices act on vectors, ours on axes.
     """
