@@ -22,6 +22,7 @@ from insar import (
     ErrorBudget,
     ErrorSource,
     HeldConstant,
+    PhaseStatistics,
     Radar,
     Scene,
     SharedBy,
@@ -329,6 +330,11 @@ def test_a_prior_that_is_too_coarse_is_proved_to_block():
 
 def test_the_best_baselines_are_realized_by_satellites():
     problem, space = example("three_sat")
+    # With exact statistics and azimuth bands the tree's model is a little better than the problem.
+    problem = dataclasses.replace(
+        problem,
+        errors=dataclasses.replace(problem.errors, phase_statistics=PhaseStatistics.CRAMER_RAO),
+    )
     bound = projected_bound(problem, space, sign=1, start=None, tolerance=1e-3, max_boxes=20_000)
     design = realize(problem, space, bound)
     evaluation = problem.evaluate(space.states(design[None]))
