@@ -109,8 +109,7 @@ def dem_verdict(
         acquisitions that are combined.
     label : what it is called in the report.
     request : what is asked of the model.
-    combined : whether the positions are of several acquisitions. Their sensitivities are not
-        computed.
+    combined : whether the positions are of several acquisitions.
 
     Returns
     -------
@@ -131,7 +130,7 @@ def dem_verdict(
         judge(accuracy, specification, slope=scene.slope, posting=posting)
         for specification in request.specifications
     )
-    study = None if combined else Study(problem=problem, positions=place, cell=request.cell)
+    study = Study(problem=problem, positions=place, cell=request.cell, combined=combined)
     return DemVerdict(
         label=label,
         request=request,
@@ -140,7 +139,7 @@ def dem_verdict(
         posting_of_looks=given,
         judgments=judgments,
         failed=_failed(study, judgments),
-        sensitivities=() if study is None else sensitivities(study),
+        sensitivities=sensitivities(study),
         notes=_notes(problem, request, posting),
     )
 
@@ -188,14 +187,14 @@ def _posting_of_looks(problem: Problem, request: DemRequest) -> float | None:
     return float(posting.max())
 
 
-def _failed(study: Study | None, judgments: tuple[Judgment, ...]) -> tuple[FailedDemand, ...]:
+def _failed(study: Study, judgments: tuple[Judgment, ...]) -> tuple[FailedDemand, ...]:
     found = []
     for judgment in judgments:
         for criterion in judgment.criteria:
             if criterion.passed:
                 continue
             tried: tuple[Remedy, ...] = ()
-            if study is not None and np.isfinite(criterion.value):
+            if np.isfinite(criterion.value):
                 limit = _limits(study, judgment.specification, criterion.quantity)
                 tried = (
                     ()

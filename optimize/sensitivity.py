@@ -16,7 +16,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
 
-from insar import Cell, height_accuracy, height_error_of, phase_model, unwrapping_ladder
+from insar import (
+    Cell,
+    combine_acquisitions,
+    height_accuracy,
+    height_error_of,
+    phase_model,
+    unwrapping_ladder,
+)
 
 from .budget import BudgetItem, budget_items
 from .problem import Problem
@@ -93,8 +100,10 @@ class Study:
     Attributes
     ----------
     problem : scene, radar, errors and limits.
-    positions : (S, N, 3) — of the formation, RTN at the scene's times [m].
+    positions : (S, N, 3) — of the formation, RTN at the scene's times [m]; (A, S, N, 3) of
+        acquisitions that are combined.
     cell : what the relative error refers to.
+    combined : whether the positions are of several acquisitions.
     known : quantities that were computed already, by item and factor; several demands ask for the
         same ones.
     """
@@ -102,6 +111,7 @@ class Study:
     problem: Problem
     positions: Array
     cell: Cell
+    combined: bool = False
     known: dict[tuple[str, float], dict[Quantity, Array]] = field(default_factory=dict, repr=False)
 
     @property
@@ -121,28 +131,35 @@ class Study:
         if key not in self.known:
             try:
                 problem, positions = item.changed(factor)
-                self.known[key] = quantities(problem, positions, self.cell)
+                self.known[key] = quantities(problem, positions, self.cell, combined=self.combined)
             except ValueError:  # such a radar or calibration can't be
                 self.known[key] = {}
         return self.known[key]
 
 
-def quantities(problem: Problem, positions: ArrayLike, cell: Cell) -> dict[Quantity, Array]:
+def quantities(
+    problem: Problem, positions: ArrayLike, cell: Cell, *, combined: bool = False
+) -> dict[Quantity, Array]:
     """Errors of a formation: those of the segments, and the total of the region.
 
     Parameters
     ----------
     problem : scene, radar, errors and limits.
-    positions : (S, N, 3) — RTN positions at the scene's times [m].
+    positions : (S, N, 3) — RTN positions at the scene's times [m]; (A, S, N, 3) of acquisitions.
     cell : what the relative error refers to.
+    combined : whether the positions are of several acquisitions that are combined.
 
     Returns
     -------
     quantity → (S,), or (1,) for the total.
     """
     scene, radar, errors = problem.scene, problem.radar, problem.errors
-    accuracy = height_accuracy(positions, scene, radar=radar, errors=errors, cell=cell)
-    model = phase_model(positions, scene, radar=radar, errors=errors)
+    accuracy = height_accuracy(
+        positions, scene, radar=radar, errors=errors, cell=cell, combined=combined
+    )
+    each = np.asarray(positions) if combined else [positions]
+    models = [phase_model(one, scene, radar=radar, errors=errors) for one in each]
+    model = combine_acquisitions(models) if combined else models[0]
     region = height_error_of(model, scene=scene, radar=radar, errors=errors).region
     found = {
         Quantity.TOTAL: np.atleast_1d(region),
@@ -198,7 +215,12 @@ def remedies(study: Study, quantity: Quantity, limit: ArrayLike) -> tuple[Remedy
     """
     allowed = np.asarray(limit, dtype=np.float64)
     start = float(
-        np.max(quantities(study.problem, study.positions, study.cell)[quantity] / allowed)
+        np.max(
+            quantities(study.problem, study.positions, study.cell, combined=study.combined)[
+                quantity
+            ]
+            / allowed
+        )
     )
     found: list[tuple[float, Remedy]] = []
     for item in study.items:

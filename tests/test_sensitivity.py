@@ -199,6 +199,23 @@ def test_bits_that_pass_are_whole_and_one_less_fails():
     )
 
 
+def test_two_like_acquisitions_answer_like_one_and_need_half_the_looks():
+    one = _study()
+    two = replace(one, positions=np.stack([one.positions] * 2), combined=True, known={})
+    alone, both = (
+        quantities(study.problem, study.positions, study.cell, combined=study.combined)
+        for study in (one, two)
+    )
+    np.testing.assert_allclose(both[Quantity.TOTAL], alone[Quantity.TOTAL] / np.sqrt(2.0))
+    found = {item.item: item.elasticities[Quantity.TOTAL] for item in sensitivities(two)}
+    expected = {item.item: item.elasticities[Quantity.TOTAL] for item in sensitivities(one)}
+    for name, value in expected.items():
+        assert found[name] == pytest.approx(value, abs=1e-6), name
+    limit = alone[Quantity.TOTAL].max() / 2.0
+    needed = [_of(remedies(study, Quantity.TOTAL, limit), "looks").needed for study in (one, two)]
+    assert needed[1] == pytest.approx(needed[0] / 2.0, rel=0.06)  # exact at many looks
+
+
 def test_ambiguities_that_pass_in_closed_form():
     """From −10 dB to where the coherence is that of −20 dB, by any other road the same."""
     study = _study(coherence=CoherenceBudget(rasr=0.1))
