@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 from time import process_time
 from typing import Any, TypeVar
 
@@ -31,6 +31,8 @@ class Meter:
     evaluations : formations scored.
     seconds : CPU time inside the evaluator, from design vectors to scores [s].
     best : smallest region height error of all feasible formations that it scored [m].
+    start : CPU time at which the search began [s].
+    improvements : CPU time since the start [s], and the best from then on [m].
     """
 
     budget: float = np.inf
@@ -38,6 +40,8 @@ class Meter:
     seconds: float = 0.0
     best: float = np.inf
     running: bool = False
+    start: float = field(default_factory=process_time)
+    improvements: list[tuple[float, float]] = field(default_factory=list)
 
     def timed(self, function: Callable[[], Result]) -> Result:
         """Call a function on the evaluator's clock; nested calls count once."""
@@ -60,7 +64,14 @@ class Meter:
 
     def note(self, objectives: Array, feasible: NDArray[np.bool_]) -> None:
         """Remember the best feasible formation."""
-        self.best = min(self.best, float(np.min(objectives, where=feasible, initial=np.inf)))
+        best = float(np.min(objectives, where=feasible, initial=np.inf))
+        if best < self.best:
+            self.best = best
+            self.improvements.append((process_time() - self.start, best))
+
+    def reached(self, target: float) -> float:
+        """CPU time at which the best came to a target; `inf` if it never did [s]."""
+        return next((time for time, best in self.improvements if best <= target), np.inf)
 
 
 @dataclass(frozen=True, kw_only=True)

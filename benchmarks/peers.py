@@ -6,15 +6,16 @@ import random
 import warnings
 from collections.abc import Callable
 from functools import partial
+from importlib.util import find_spec
 from typing import NamedTuple
 
 import numpy as np
 from deap import base, creator, tools
 from metering import MeteredProblem, MeteredSpace
 from numpy.typing import NDArray
-from scipy.optimize import NonlinearConstraint, differential_evolution
+from scipy.optimize import NonlinearConstraint, differential_evolution, dual_annealing
 
-from optimize import SearchSettings, search
+from optimize import CovarianceSettings, DifferentialSettings, SearchSettings, search
 from optimize.constraints import FEASIBILITY_TOLERANCE
 from optimize.refinement import refine
 
@@ -39,10 +40,22 @@ def our_search(task: Task) -> None:
     search(task.problem, task.space, settings=task.settings, rng=rng)
 
 
+def with_algorithm(task: Task, *, algorithm: DifferentialSettings | CovarianceSettings) -> None:
+    """The same with another algorithm of the populations, of as many designs."""
+    ours = task.settings.algorithm
+    sized = algorithm._replace(population=ours.population, generations=ours.generations)
+    our_search(task._replace(settings=task.settings._replace(algorithm=sized)))
+
+
+def without_structure(task: Task) -> None:
+    """The same without the refinement of structured designs."""
+    our_search(task._replace(settings=task.settings._replace(structured=0)))
+
+
 def our_genetic_algorithm(task: Task) -> None:
     """The genetic algorithm alone, with generations as long as the budget lasts."""
     genetic = task.settings.algorithm._replace(generations=10**9)
-    our_search(task._replace(settings=SearchSettings(genetic, refinements=0)))
+    our_search(task._replace(settings=SearchSettings(genetic, refinements=0, structured=0)))
 
 
 # -- plain DEAP ----------------------------------------------------------------------------------
@@ -195,8 +208,121 @@ def evolve(
     return best
 
 
+# -- libraries that take one number per design -----------------------------------------------------
+
+
+def scalar(task: Task) -> Callable[[Array], float]:
+    """Deb's rules in one number, of one design in the box scaled to ±1."""
+
+    def score(point: Array) -> float:
+        return float(scores(task, np.asarray(point, dtype=np.float64)[None])[0])
+
+    return score
+
+
+def scores(task: Task, points: Array) -> Array:
+    """Deb's rules in one number, of (P, D) designs in the box scaled to ±1."""
+    designs = np.clip(points, -1.0, 1.0) * task.space.upper
+    evaluation = task.problem.evaluate(task.space.states(designs))
+    return np.where(evaluation.feasible, evaluation.objectives, 1e3 + evaluation.total_violation)
+
+
+def annealing(task: Task) -> None:
+    """scipy's dual annealing, its local searches included, one formation at a time."""
+    dual_annealing(
+        scalar(task),
+        bounds=[(-1.0, 1.0)] * task.space.dimension,
+        maxiter=UNTIL_SPENT,
+        rng=np.random.default_rng(task.seed),
+    )
+
+
+def pycma(task: Task) -> None:
+    """pycma with restarts of doubling population, a generation in one batch."""
+    import cma
+
+    score = partial(scores, task)
+    dimension, population, run = task.space.dimension, 4 + int(3 * np.log(task.space.dimension)), 0
+    rng = np.random.default_rng(task.seed)
+    while True:  # until the budget is spent
+        options = {
+            "bounds": [-1.0, 1.0],
+            "seed": task.seed * 1000 + run + 1,
+            "popsize": population * 2**run,
+            "verbose": -9,
+        }
+        strategy = cma.CMAEvolutionStrategy(rng.uniform(-0.6, 0.6, dimension), 0.4, options)
+        while not strategy.stop():
+            points = strategy.ask()
+            strategy.tell(points, score(np.array(points)).tolist())
+        run = min(run + 1, 6)
+
+
+def pymoo(task: Task, *, algorithm: str) -> None:
+    """pymoo's GA, DE or CMA-ES with its own rules for the limits, a generation in one batch."""
+    from pymoo.algorithms.soo.nonconvex.cmaes import CMAES
+    from pymoo.algorithms.soo.nonconvex.de import DE
+    from pymoo.algorithms.soo.nonconvex.ga import GA
+    from pymoo.core.problem import Problem as PymooProblem
+    from pymoo.optimize import minimize
+
+    dimension = task.space.dimension
+    constrained = algorithm != "CMA-ES"  # pymoo's takes no constraints: Deb's rules in one number
+
+    class Formation(PymooProblem):
+        def __init__(self) -> None:
+            limits = len(task.problem.limits) if constrained else 0
+            super().__init__(n_var=dimension, n_obj=1, n_ieq_constr=limits, xl=-1.0, xu=1.0)
+
+        def _evaluate(self, points, out, *_args, **_kwargs):  # type: ignore[no-untyped-def]
+            if not constrained:
+                out["F"] = scores(task, np.atleast_2d(points))
+                return
+            evaluation = task.problem.evaluate(task.space.states(points * task.space.upper))
+            out["F"] = np.minimum(evaluation.objectives, 1e3)
+            out["G"] = evaluation.violations
+
+    chosen = {
+        "GA": lambda: GA(pop_size=60),
+        "DE": lambda: DE(pop_size=MEMBERS * dimension),
+        "CMA-ES": lambda: CMAES(restarts=9, bipop=True),
+    }[algorithm]()
+    run = 0
+    while True:  # until the budget is spent: a run that ends early begins anew
+        minimize(Formation(), chosen, ("n_gen", UNTIL_SPENT), seed=task.seed * 1000 + run)
+        run += 1
+
+
+def pygmo(task: Task, *, algorithm: str) -> None:
+    """pygmo's self-adaptive DE or CMA-ES; it asks for one formation at a time."""
+    import pygmo as pg
+
+    score, dimension = scalar(task), task.space.dimension
+
+    class Formation:
+        def fitness(self, point: Array) -> list[float]:
+            return [score(point)]
+
+        def get_bounds(self) -> tuple[list[float], list[float]]:
+            return [-1.0] * dimension, [1.0] * dimension
+
+    method = {"sade": pg.sade, "CMA-ES": partial(pg.cmaes, force_bounds=True)}[algorithm]
+    run = 0
+    while True:  # until the budget is spent: the last call raises in the middle
+        evolution = pg.algorithm(method(gen=100, seed=task.seed * 1000 + run))
+        population = pg.population(
+            pg.problem(Formation()), size=MEMBERS * dimension, seed=task.seed
+        )
+        for _ in range(20):
+            population = evolution.evolve(population)
+        run += 1
+
+
 # `search.py` runs `our_search` first: it sets the budget.
 PEERS: dict[str, Callable[[Task], None]] = {
+    "ours, differential evolution": partial(with_algorithm, algorithm=DifferentialSettings()),
+    "ours, CMA-ES": partial(with_algorithm, algorithm=CovarianceSettings()),
+    "ours, no structured designs": without_structure,
     "our genetic algorithm alone": our_genetic_algorithm,
     "DEAP, one at a time": plain_deap,
     "scipy DE, constraints=": de_constraints,
@@ -204,4 +330,11 @@ PEERS: dict[str, Callable[[Task], None]] = {
     "scipy DE, penalty": de_penalty,
     "scipy DE, constraints=, polish": partial(de_constraints, polish=True),
     "scipy DE, constraints=, our refine": partial(de_constraints, refined=True),
+    "scipy dual annealing": annealing,
 }
+if find_spec("pymoo"):
+    PEERS |= {f"pymoo {name}": partial(pymoo, algorithm=name) for name in ("GA", "DE", "CMA-ES")}
+if find_spec("pygmo"):
+    PEERS |= {f"pygmo {name}": partial(pygmo, algorithm=name) for name in ("sade", "CMA-ES")}
+if find_spec("cma"):
+    PEERS["pycma, restarts"] = pycma

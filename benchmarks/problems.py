@@ -10,7 +10,15 @@ from typing import NamedTuple
 import numpy as np
 
 from formation import Orbit, ground_track_circular
-from insar import ErrorBudget, ErrorSource, Radar, Scene, SharedBy, one_transmitter
+from insar import (
+    BaselineDecorrelation,
+    ErrorBudget,
+    ErrorSource,
+    Radar,
+    Scene,
+    SharedBy,
+    one_transmitter,
+)
 from optimize import Constraints, DesignSpace, GeneticSettings, Problem, SearchSettings
 
 MEAN_MOTION = Orbit.circular(altitude=514e3, inclination=np.deg2rad(97.44)).mean_motion
@@ -33,14 +41,12 @@ class Landscape(NamedTuple):
     name : in words.
     problem, space : what is searched.
     settings : of our search.
-    best_known : the smallest feasible region height error known [m].
     """
 
     name: str
     problem: Problem
     space: DesignSpace
     settings: SearchSettings
-    best_known: float
 
 
 def realistic_problem(
@@ -110,11 +116,12 @@ def paper_problem(
     return problem, _space(satellites, radius=1211.2, signs=(1,))
 
 
-def landscapes(*, quick: bool = False) -> tuple[Landscape, ...]:
+def landscapes(*, counts: tuple[int, ...] = (3, 5, 8), quick: bool = False) -> list[Landscape]:
     """The landscapes of `search.py`, with the settings of the shipped studies.
 
     Parameters
     ----------
+    counts : numbers of satellites.
     quick : few generations and refinements, to see that all runs.
     """
     shared = dataclasses.replace(
@@ -122,26 +129,29 @@ def landscapes(*, quick: bool = False) -> tuple[Landscape, ...]:
         azimuth=ErrorSource(np.deg2rad(0.01), SharedBy.ALL),
         phase_std=0.316,
     )
+    unfiltered = dataclasses.replace(
+        realistic_errors(),
+        position=ErrorSource(0.01, SharedBy.SATELLITE),
+        baseline_decorrelation=BaselineDecorrelation.UNFILTERED,
+    )
     limits = Constraints(max_radius=1211.2, min_separation=100.0)
-
     genetic = GeneticSettings(population=60, generations=10 if quick else 40)
     settings = SearchSettings(genetic, refinements=1 if quick else 16)
-
-    return (
-        Landscape(
-            "realistic, 3 satellites", *realistic_problem(3), settings, best_known=0.25289517
-        ),
-        Landscape(
-            "realistic, 4 satellites", *realistic_problem(4), settings, best_known=0.11464157
-        ),
-        # No decorrelation: the optimum is known by proof (a convex certificate), to six decimals.
-        Landscape(
-            "dumbbell, 4 satellites",
-            *paper_problem(4, errors=shared, constraints=limits),
-            settings,
-            best_known=0.813011,
-        ),
-    )
+    made: list[Landscape] = []
+    for count in counts:
+        problems = {
+            # No decorrelation: a dumbbell, whose optimum a convex certificate proves.
+            "dumbbell": paper_problem(count, errors=shared, constraints=limits),
+            # Unfiltered decorrelation: an unequal ladder.
+            "ladder": paper_problem(count, errors=unfiltered, constraints=limits),
+            # The shipped study: filtering, and the phase must be unwrapped.
+            "unwrapped": realistic_problem(count),
+        }
+        made += [
+            Landscape(f"{name}, {count} satellites", *pair, settings)
+            for name, pair in problems.items()
+        ]
+    return made
 
 
 def _radar(satellites: int, *, looks: float) -> Radar:
