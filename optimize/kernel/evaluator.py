@@ -113,8 +113,10 @@ def compiled_evaluator(problem: Problem, space: DesignSpace) -> CompiledEvaluato
     -------
     CompiledEvaluator; None where numba is not installed, or the problem has a part that the
     compiled loops do not know: a joint weighting without filtering, volume or temporal
-    decorrelation, a family of your own.
+    decorrelation, a family or a kind of problem of your own.
     """
+    if type(problem) is not Problem or type(space) is not DesignSpace:
+        return None  # a subclass may score otherwise, or count what is scored
     if not supported(problem, space):
         return None
     try:
