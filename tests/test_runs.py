@@ -1,24 +1,30 @@
 """What the terminal shows of a run."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 from formation_opt.runs.shown import agility, hertz, largest_degrees
 
-RATES = np.full((3, 3), 0.01)
+NONE, SOME = np.zeros(3, bool), np.array([False, True, False])
+LIMITED, FREE = SimpleNamespace(limited=True), SimpleNamespace(limited=False)
 
 
 @pytest.mark.parametrize(
-    ("exceeded", "rates", "limited", "text"),
+    ("exceeded", "solved", "limits", "why", "text"),
     [
-        (False, RATES, True, "kept"),
-        (True, RATES, True, "exceeded"),
-        (False, RATES, False, "no limits given"),
-        (False, np.full((3, 3), np.nan), True, "not known"),
+        (NONE, ~NONE, LIMITED, None, "kept"),
+        (SOME, ~NONE, LIMITED, None, "exceeded"),
+        (NONE, ~NONE, FREE, None, "no limits given"),
+        (NONE, ~NONE, None, None, "no limits given"),
+        (NONE, NONE, LIMITED, "no beam", "not known: no beam"),
+        (NONE, SOME, LIMITED, "no beam", "kept, where the attitude is known; no beam"),
     ],
 )
-def test_agility(exceeded, rates, limited, text):
-    assert agility(np.full(3, exceeded), rates, limited=limited) == text
+def test_agility(exceeded, solved, limits, why, text):
+    profile = SimpleNamespace(solved=solved, rate_exceeded=exceeded, acceleration_exceeded=NONE)
+    assert agility(profile, limits, why) == text
 
 
 def test_rounding_is_zero():
