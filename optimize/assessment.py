@@ -10,9 +10,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from formation import min_separation, relative_positions, satellite_pairs
 from insar import (
+    Decorrelation,
     HeightError,
     PhaseModel,
     UnwrappingLadder,
+    decorrelated_unwrapping,
     pair_budget,
     pair_coherence,
     pair_critical_baseline,
@@ -88,12 +90,17 @@ class Unwrapping(NamedTuple):
     probability : (S,) — that every rung succeeds.
     worst_segment : 0-based segment with the smallest probability.
     rungs : the ladder in that segment, the surest pair first.
+    decorrelated : (S,) — that bootstrapping succeeds after decorrelation of the ambiguities
+        (LAMBDA), never below `probability`; what a limit asks for is the ladder's.
+    ceiling : (S,) — what no integer estimator exceeds.
     """
 
     prior_height_std: float
     probability: Array
     worst_segment: int
     rungs: tuple[Rung, ...]
+    decorrelated: Array
+    ceiling: Array
 
 
 class Motion(NamedTuple):
@@ -253,7 +260,8 @@ def unwrapping_of(problem: Problem, model: PhaseModel) -> Unwrapping | None:
     if prior is None:
         return None
     ladder = unwrapping_ladder(model, prior_height_std=prior)
-    return _unwrapping(ladder, model.vertical_wavenumber[0], prior)
+    reduced = decorrelated_unwrapping(model, prior_height_std=prior, ladder=ladder)
+    return _unwrapping(ladder, reduced, model.vertical_wavenumber[0], prior)
 
 
 def image_pairs(problem: Problem, positions: Array) -> tuple[ImagePair, ...]:
@@ -290,7 +298,10 @@ def image_pairs(problem: Problem, positions: Array) -> tuple[ImagePair, ...]:
 
 
 def _unwrapping(
-    ladder: UnwrappingLadder, vertical_wavenumber: Array, prior_height_std: float
+    ladder: UnwrappingLadder,
+    reduced: Decorrelation,
+    vertical_wavenumber: Array,
+    prior_height_std: float,
 ) -> Unwrapping:
     probability = ladder.probability[0]
     worst = int(np.argmax(ladder.failure[0]))
@@ -307,4 +318,11 @@ def _unwrapping(
         )
         for pair, deviation in zip(ladder.pairs[0, worst], deviations, strict=True)
     )
-    return Unwrapping(prior_height_std, probability, worst, rungs)
+    return Unwrapping(
+        prior_height_std,
+        probability,
+        worst,
+        rungs,
+        decorrelated=reduced.probability[0],
+        ceiling=reduced.ceiling[0],
+    )

@@ -149,6 +149,8 @@ def assessment_json(problem: Problem, assessment: Assessment) -> Json:
         else {
             "probability": finite(unwrapping.probability.min()),
             "prior_height_std_m": finite(unwrapping.prior_height_std),
+            "decorrelated": finite(unwrapping.decorrelated.min()),
+            "ceiling": finite(unwrapping.ceiling.min()),
             "segments": finite_list(unwrapping.probability),
             "worst_segment": unwrapping.worst_segment + 1,
             "rungs": [

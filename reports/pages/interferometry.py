@@ -25,6 +25,7 @@ from ..wording import (
     joined,
     meters,
     plain,
+    probability,
     to_decimals,
     to_probabilities,
     to_span,
@@ -163,6 +164,14 @@ def _ladder_text(problem: Problem, ladder: Assessment, prior_height_std: float) 
         f"prior height, known to {plain(prior_height_std)}\u00a0m, and the rungs below it. Noise "
         "and systematic errors both count."
     )
+    unwrapping = ladder.unwrapping
+    if unwrapping is not None and unwrapping.probability.size and len(unwrapping.rungs) > 1:
+        text += (
+            " With the ambiguities decorrelated first (LAMBDA), the probability in the worst "
+            f"segment is {probability(float(unwrapping.decorrelated.min()))} instead of "
+            f"{probability(float(unwrapping.probability.min()))}; no integer estimator exceeds "
+            f"{probability(float(unwrapping.ceiling.min()))}."
+        )
     beyond = [str(number) for number in rungs_beyond_critical(problem, ladder)]
     if not beyond:
         return text
