@@ -133,7 +133,7 @@ class SearchBlock(Block):
         description="Seed of the random numbers; the same seed gives the same result.",
     )
     refinements: Whole = Field(
-        default=16,
+        default=6,
         ge=0,
         le=1000,
         description="How many of the best, mutually distant designs are refined; 0 for none.",

@@ -12,6 +12,7 @@ import numpy as np
 from insar import (
     BaselineDecorrelation,
     ErrorBudget,
+    PhaseStatistics,
     Radar,
     Scene,
     height_error,
@@ -37,9 +38,10 @@ across = np.cross(scene.line_of_sight[0], [0.0, 1.0, 0.0])
 baselines = share[:, None] * critical * across
 positions = np.stack([np.zeros_like(baselines), baselines], axis=1)[:, None]  # (P, S, N, 3)
 
-curves = {}
+BOUND, curves = PhaseStatistics.CRAMER_RAO, {}
 for decorrelation in (BaselineDecorrelation.FILTERED, BaselineDecorrelation.UNFILTERED):
-    errors = ErrorBudget(baseline_decorrelation=decorrelation)  # phase noise alone
+    # Phase noise alone, by the bound, whose optima closed forms know.
+    errors = ErrorBudget(baseline_decorrelation=decorrelation, phase_statistics=BOUND)
     noise = curves[decorrelation] = height_error(
         positions, scene, radar=radar, errors=errors
     ).total[:, 0]

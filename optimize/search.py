@@ -31,7 +31,7 @@ _DISTANCE = 0.3
 """Distance of designs that are refined, in parts of the box, largest coordinate: starts 5 % apart
 end in the same optimum, and the evaluations of all but one are wasted (docs/performance.md)."""
 
-_CLOSED_FORM_FROM = 6
+_CLOSED_FORM_FROM = 3
 """Satellites from which derivatives in closed form take less time than a batch of differences."""
 
 
@@ -51,7 +51,7 @@ class SearchSettings(NamedTuple):
     """
 
     algorithm: Algorithm = GeneticSettings()
-    refinements: int = 16
+    refinements: int = 6
     islands: IslandSettings = IslandSettings()
     structured: int = 4
 

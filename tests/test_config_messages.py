@@ -504,12 +504,12 @@ OTHER_EXAMPLES = {
     ),
     "drift": (
         EVALUATE,
-        "[0, -1.33513, 0]",
+        "[0, -1.32410, 0]",
         "[0, -1.3, 0]",
         "[0, -1.3",
-        "formation.satellites[#3].velocity_rtn_m_s = [0, -1.3, 0] drifts 600 m per orbit along "
+        "formation.satellites[#3].velocity_rtn_m_s = [0, -1.3, 0] drifts 412 m per orbit along "
         "track against satellite 1, and 1 m is the limit; the T component of a drift-free velocity "
-        "is -2 n R, here -1.335130",
+        "is -2 n R, here -1.324095",
     ),
     "satellite given in two ways": (
         EVALUATE,
@@ -528,9 +528,9 @@ OTHER_EXAMPLES = {
     ),
     "position with a component too few": (
         EVALUATE,
-        "[605, 0, 1210]",
-        "[605, 1210]",
-        "[605, 1210]",
+        "[600, 0, 1200]",
+        "[600, 1200]",
+        "[600, 1200]",
         "must be a list of 3 entries, each a number from -40000 to 40000 m; add or remove entries",
     ),
 }

@@ -511,14 +511,15 @@ def test_impossible_spaces_are_refused(realistic, change, message):
 def test_the_other_cross_track_sign_is_tried_with_the_best():
     """No descent crosses the sign: over Etna this seed settles on the worse one.
 
-    The optima of the two signs, 0.2604 and 0.2676 m, were found by 20 longer searches.
+    The optima of the two signs were found by 20 longer searches: 0.2604 and 0.2676 m with the
+    Cramér-Rao bound, to which exact phase statistics add 1 %.
     """
     study = load_study(Path(__file__).parent.parent / "configs" / "three_sat_real.yaml").study
     setup = build_optimize(study)
     found = search(
         setup.problem, setup.space, settings=setup.settings, rng=np.random.default_rng(1)
     )
-    assert found.objective == pytest.approx(0.2604, abs=1e-3)
+    assert found.objective == pytest.approx(0.2630, abs=1e-3)
 
 
 def test_mirrored_design():
