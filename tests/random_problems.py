@@ -59,6 +59,7 @@ def random_problem(
         snr=10.0 ** rng.uniform(0.3, 2.0),
         looks=float(rng.integers(1, 64)),
         images=arrangements[rng.integers(len(arrangements))],
+        azimuth_resolution=None if rng.random() < 0.4 else 10.0 ** rng.uniform(0.0, 1.3),
     )
     pairs = rng.random() < 0.3
     shared = SharedBy.PAIR if pairs and rng.random() < 0.5 else None

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,12 +18,24 @@ from insar import BaselineDecorrelation, ErrorBudget, PhaseStatistics, Radar, We
 from insar.phase_information import pair_phase_variance
 from insar.phase_noise import pair_efficiency
 
+from .filtered import FilteredWeights
+from .parted import BoxInformation, partitions
 from .shared import pair_variance
 
 Array = NDArray[np.float64]
 
 _TABLE = 5e-5
 """Part by which a tabulated efficiency may be off, with room to spare."""
+
+
+_SPREADS = (0.0, 0.5, np.inf)
+"""Ends of the intervals of the azimuth spread that are bounded on their own [bandwidths]."""
+
+_REMNANT = 0.02
+"""Part of the azimuth band below which nothing is said of the efficiency of a pair."""
+
+_MAX_PARTED = 5
+"""Images up to which every way to part them by their azimuth bands is looked at: 30 ways."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -48,7 +61,7 @@ class InformationBound:
     alike: bool
     offsets: Array
 
-    def upper(self, lower: Array, upper: Array) -> Array:
+    def upper(self, lower: Array, upper: Array) -> tuple[BoxInformation, ...]:
         """Information that no formation of a box exceeds.
 
         Parameters
@@ -57,38 +70,80 @@ class InformationBound:
 
         Returns
         -------
-        (n, M − 1, M − 1) — relative to the first image [1/rad²].
+        One for each interval of the azimuth spread; every formation falls into one of them.
         """
         least, most = self._shifts(lower, upper)
         decorrelation = self.errors.baseline_decorrelation
         if self.errors.weighting is Weighting.PAIRS:
-            return self._laplacian(self._pair_weights(least))
+            return self._alone(self._laplacian(self._pair_weights(least)))
         shifted = self.radar.azimuth_resolution is not None and not self.radar.pursuit
         unfiltered = decorrelation is BaselineDecorrelation.UNFILTERED
         if not self.errors.coherence.spectral or (unfiltered and shifted):
-            return self._of_signal(len(least))
+            return self._alone(self._of_signal(len(least)))
         if unfiltered:
-            return self._unfiltered(least, most)
+            return self._alone(self._unfiltered(least, most))
         if decorrelation is BaselineDecorrelation.NONE:
             least, most = np.zeros_like(least), np.zeros_like(most)
-        weights = self._filtered_weights(least, most)
-        # Azimuth bands that differ may leave a pair any number of looks, and raise its weight
-        # where a third image is missing: there only the Cramér-Rao bound is sure.
-        free = shifted and decorrelation is not BaselineDecorrelation.NONE
-        return self._laplacian(weights if free else weights * self._efficiency(least, most))
+            shifted = False
+        weights = self._filtered.weights(least, most)
+        if not shifted or not self._lessened:
+            return self._alone(self._laplacian(weights * self._efficiency(least, most)))
+        if len(self.radar.images) > _MAX_PARTED:
+            # Where a third image is missing, the weight of a pair rises: only the Cramér-Rao
+            # bound is sure.
+            return self._alone(self._laplacian(weights))
+        return self._parted(least, most, weights)
 
-    def _efficiency(self, least: Array, most: Array) -> Array:
+    def _parted(self, least: Array, most: Array, weights: Array) -> tuple[BoxInformation, ...]:
+        """By the spread D = max d − min d of the azimuth bands d.
+
+        Frequencies a whole bandwidth apart taken together, each image sees each of them once. The
+        images that see one and the same are then all of them, for 1 − D of the frequencies, or
+        they are parted in two groups (at D ≥ 1 in two or more). So Fisher's information is
+        (1 − D)X + ∫ΣX_S over D, S the groups; and exact statistics lessen each pair by a part
+        that its looks, at least 1 − D of those that it has in range, bound. Of a pair that shares
+        next to nothing in azimuth, less than `_REMNANT`, any part of next to nothing may be left.
+        """
+        whole = tuple(range(len(self.radar.images)))
+        of_group = {
+            group: self._filtered.weights(least, most, group)
+            for group in {group for groups in partitions(len(whole)) for group in groups}
+        }
+        parted = [sum(of_group[group] for group in groups) for groups in partitions(len(whole))]
+        largest = np.max([weights, *of_group.values()], axis=0)
+        cases = []
+        for start, end in pairwise(_SPREADS):
+            part = self._efficiency(least, most, left=max(1.0 - end, _REMNANT))
+            rest = _REMNANT * (1.0 - part) * largest if 1.0 - end < _REMNANT else 0.0
+            split = [self._laplacian(group * part + rest) for group in parted]
+            cases.append(
+                BoxInformation(
+                    self._laplacian(weights * part + rest),
+                    np.stack(split, axis=1),
+                    (start, min(end, 1.0)),
+                )
+            )
+        return tuple(cases)
+
+    def _alone(self, matrix: Array) -> tuple[BoxInformation, ...]:
+        return (BoxInformation(matrix, matrix[:, None][:, :0], (0.0, 0.0)),)
+
+    @property
+    def _lessened(self) -> bool:
+        """Whether exact statistics lessen the information, by a part that is known."""
+        return self.errors.phase_statistics is PhaseStatistics.EXACT and self.alike
+
+    def _efficiency(self, least: Array, most: Array, *, left: float = 1.0) -> Array:
         """Largest part of the Cramér-Rao information that each pair can have, (n, K).
 
-        With the looks it first falls and then rises, so it is largest at an end of a box; where
-        amplitudes differ it counts as 1.
+        With the looks, of which at least `left` remain in azimuth, it first falls and then rises,
+        so it is largest at an end of a box; where amplitudes differ it counts as 1.
         """
-        exact = self.errors.phase_statistics is PhaseStatistics.EXACT
-        if not exact or not self.alike:
+        if not self._lessened:
             return np.ones_like(least)
         ends = [
-            pair_efficiency(self._pair_coherence, self.radar.looks * np.maximum(0.0, 1.0 - shift))
-            for shift in (least, most)
+            pair_efficiency(self._pair_coherence, self.radar.looks * np.maximum(0.0, band))
+            for band in (1.0 - least, (1.0 - most) * left)
         ]
         return np.asarray(np.minimum(1.0, np.maximum(*ends) * (1.0 + _TABLE)))
 
@@ -123,40 +178,6 @@ class InformationBound:
         with np.errstate(invalid="ignore"):
             exact = variance / pair_efficiency(coherence, looks) * (1.0 - _TABLE)
         return np.where(np.isfinite(variance), exact, np.inf)
-
-    def _filtered_weights(self, least: Array, most: Array) -> Array:
-        """2L u_i u_j ∫ df/(1 + U) over the common band, U the sum of u over who sees it.
-
-        With images sorted by offset, all that lie between i and j see their whole common band. The
-        integral falls with o_j − o_i, and grows as the others move away: so it is largest at
-        corners of the box that are known.
-        """
-        first, second = self.radar.image_pairs.T
-        weight = self._phase_weight
-        common = np.maximum(0.0, 1.0 - least)
-        sequence = self._sequence
-        if sequence is None:  # no common order: count on nobody else
-            seen = 1.0 + weight[first] + weight[second]
-            return np.asarray(
-                2.0 * self.radar.looks * weight[first] * weight[second] / seen * common
-            )
-        pair = self._pair_index
-        result = np.zeros_like(least)
-        for a, i in enumerate(sequence):
-            for b, j in enumerate(sequence[a + 1 :], start=a + 1):
-                column = pair[i, j]
-                start = np.minimum(least[:, column], 1.0)
-                right = [(np.clip(most[:, pair[i, k]], start, 1.0), k) for k in sequence[b + 1 :]]
-                left = [(np.clip(1.0 - most[:, pair[i, k]], start, 1.0), k) for k in sequence[:a]]
-                seen = 1.0 + weight[list(sequence[: b + 1])].sum()
-                integral = _staircase(
-                    start,
-                    seen,
-                    [(edge, weight[k]) for edge, k in right]
-                    + [(edge, -weight[k]) for edge, k in left],
-                )
-                result[:, column] = 2.0 * self.radar.looks * weight[i] * weight[j] * integral
-        return result
 
     def _of_signal(self, count: int) -> Array:
         """2L γ_i²/(1 − γ_i²) for each image: of whoever knew its signal without noise.
@@ -232,19 +253,8 @@ class InformationBound:
         return np.asarray(self.offsets[second] - self.offsets[first])
 
     @cached_property
-    def _pair_index(self) -> NDArray[np.intp]:
-        count = len(self.radar.images)
-        index = np.zeros((count, count), dtype=np.intp)
-        first, second = self.radar.image_pairs.T
-        index[first, second] = index[second, first] = np.arange(len(first))
-        return index
-
-    @cached_property
-    def _sequence(self) -> tuple[int, ...] | None:
-        """Images by increasing offset, where that order is the same in every box."""
-        order = np.argsort(self.offsets.sum(axis=-1), kind="stable")
-        steps = np.diff(self.offsets[order], axis=0)
-        return tuple(order.tolist()) if np.all(steps >= 0.0) else None
+    def _filtered(self) -> FilteredWeights:
+        return FilteredWeights(radar=self.radar, strength=self._phase_weight, offsets=self.offsets)
 
     @cached_property
     def _amplitude(self) -> Array:
@@ -258,18 +268,3 @@ class InformationBound:
     def _pair_coherence(self) -> Array:
         first, second = self.radar.image_pairs.T
         return np.asarray(self._amplitude[first] * self._amplitude[second])
-
-
-def _staircase(start: Array, level: float, steps: list[tuple[Array, float]]) -> Array:
-    """∫ df/level from `start` to 1, the level changing by a step at each edge between them."""
-    if not steps:
-        return np.asarray((1.0 - start) / level)
-    edges = np.stack([edge for edge, _ in steps], axis=-1)
-    order = np.argsort(edges, axis=-1, kind="stable")
-    edges = np.take_along_axis(edges, order, axis=-1)
-    change = np.array([step for _, step in steps])[order]
-    levels = np.concatenate(
-        [np.full((len(start), 1), level), level + np.cumsum(change, axis=-1)], axis=-1
-    )
-    bounds = np.concatenate([start[:, None], edges, np.ones((len(start), 1))], axis=-1)
-    return np.asarray(np.sum(np.diff(bounds, axis=-1) / levels, axis=-1))

@@ -19,6 +19,7 @@ from insar import ErrorBudget, Radar
 
 from .information import InformationBound
 from .ladders import CycleBound
+from .parted import BoxInformation
 from .shared import shared_factor
 
 Array = NDArray[np.float64]
@@ -37,16 +38,31 @@ class Boxes(NamedTuple):
 
 
 class BoxBounds(NamedTuple):
-    """Optimistic bounds over boxes.
+    """Optimistic bounds over boxes, in each of the cases into which a formation may fall.
 
     Attributes
     ----------
-    squared_error : (n,) — no formation of the box has a smaller squared height error [m²].
-    failure : (n,) — nor a smaller probability that a cycle is wrong; zero without a prior height.
+    squared_error : (n, cases) — no formation of the box has a smaller squared height error [m²].
+    failure : (n, cases) — nor a smaller probability that a cycle is wrong; zero without a prior
+        height.
     """
 
     squared_error: Array
     failure: Array
+
+    def within(self, failure: float) -> Array:
+        """Smallest squared error of a box that may keep a limit on the failure; `inf` if none.
+
+        Parameters
+        ----------
+        failure : scalar — the limit.
+
+        Returns
+        -------
+        (n,)
+        """
+        possible = self.failure <= failure
+        return np.asarray(np.where(possible, self.squared_error, np.inf).min(axis=-1))
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -83,32 +99,43 @@ class SegmentModel:
         ----------
         boxes : the boxes.
         """
-        information = self._information.upper(
-            self.shifts[0] * boxes.lower, self.shifts[1] * boxes.upper
-        )
-        noise = information @ self._shared
-        index = np.arange(information.shape[-1])
-        noise[:, index, index] += 1.0
-        # (X⁻¹ + C)⁻¹ = (I + XC)⁻¹X, where X may be singular.
-        weight = np.asarray(np.linalg.solve(noise, information), dtype=np.float64)
-        best = self._height_information(weight, boxes)
-        with np.errstate(divide="ignore"):
-            squared = 1.0 / best + self.range_variance
-        failure = np.zeros_like(squared)
-        if self._cycles is not None:
-            failure = self._cycles.failure(
-                information, self.wavenumbers[0] * boxes.lower, self.wavenumbers[1] * boxes.upper
-            )
-        return BoxBounds(squared, failure)
+        cases = self._information.upper(self.shifts[0] * boxes.lower, self.shifts[1] * boxes.upper)
+        bounds = [self._case(case, boxes) for case in cases]
+        return BoxBounds(*(np.stack(values, axis=-1) for values in zip(*bounds, strict=True)))
 
-    def _height_information(self, weight: Array, boxes: Boxes) -> Array:
-        """Largest kzᵀ·weight·kz over each box: convex in the gaps, so taken at a corner."""
+    def _case(self, case: BoxInformation, boxes: Boxes) -> tuple[Array, Array]:
+        """Squared error and failure of one case of the azimuth bands, (n,) each."""
+        with np.errstate(divide="ignore"):
+            squared = 1.0 / self._height_information(case, boxes) + self.range_variance
+        if self._cycles is None:
+            return squared, np.zeros_like(squared)
+        lower, upper = self.wavenumbers[0] * boxes.lower, self.wavenumbers[1] * boxes.upper
+        return squared, self._cycles.failure(case.ceiling(), lower, upper)
+
+    def _height_information(self, case: BoxInformation, boxes: Boxes) -> Array:
+        """Largest J = kzᵀ(X⁻¹ + C)⁻¹kz over each box: convex in the gaps, so taken at a corner.
+
+        J is the smallest yᵀXy + zᵀC⁻¹z of all y + z = kz, so that the y of one X bounds the J of
+        all others, linearly in X.
+        """
         half = 0.5 * (boxes.upper - boxes.lower)
         middle = 0.5 * (boxes.upper + boxes.lower)
         corners = middle[:, None, :] + half[:, None, :] * self._corners
         kz = self.wavenumbers[1] * corners @ self.gap_matrix[1:].T
-        values: Array = np.einsum("nvi,nij,nvj->nv", kz, weight, kz).max(axis=-1)
-        return np.maximum(values, 0.0)
+        noise = case.whole @ self._shared
+        index = np.arange(noise.shape[-1])
+        noise[:, index, index] += 1.0
+        # (X⁻¹ + C)⁻¹ = (I + XC)⁻¹X, where X may be singular.
+        weight = np.asarray(np.linalg.solve(noise, case.whole), dtype=np.float64)
+        pull = kz @ weight  # C⁻¹z = (X⁻¹ + C)⁻¹kz, symmetric
+        value = np.sum(pull * kz, axis=-1)
+        if case.parted.shape[1]:
+            split = kz - pull @ self._shared
+            whole = np.einsum("nvi,nij,nvj->nv", split, case.whole, split)
+            parted = np.einsum("nvi,npij,nvj->nvp", split, case.parted, split).max(axis=-1)
+            loss = whole - parted
+            value = value - np.minimum(case.shares[0] * loss, case.shares[1] * loss)
+        return np.asarray(np.maximum(value.max(axis=-1), 0.0))
 
     @cached_property
     def gap_matrix(self) -> Array:

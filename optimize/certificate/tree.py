@@ -149,9 +149,9 @@ class _Tree:
         if not len(lower):
             return
         self.count += len(lower)
-        bounds = self.bounding[order](Boxes(lower, upper))
-        possible = bounds.failure <= self.limits.failure
-        lower, upper, squared = lower[possible], upper[possible], bounds.squared_error[possible]
+        squared = self.bounding[order](Boxes(lower, upper)).within(self.limits.failure)
+        possible = squared < np.inf
+        lower, upper, squared = lower[possible], upper[possible], squared[possible]
         if not len(lower):
             return
         middle = 0.5 * (lower + upper)
@@ -170,8 +170,7 @@ class _Tree:
         points = points[within]
         if not len(points):
             return
-        value = self.bounding[order](Boxes(points, points))
-        squared = np.where(value.failure <= self.limits.failure, value.squared_error, np.inf)
+        squared = self.bounding[order](Boxes(points, points)).within(self.limits.failure)
         index = int(np.argmin(squared))
         if squared[index] < self.best:
             self.best, self.gaps, self.best_order = float(squared[index]), points[index], order
