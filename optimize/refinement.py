@@ -25,8 +25,20 @@ _STEP = 1e-6
 _TOLERANCE = 1e-10
 """Change of the logarithm of the error that ends a descent: what the differences resolve."""
 
-_SAFE_MARGIN = 1e-8
+_SAFE_MARGIN = 1e-6
 """Margin that the quadratic programs keep, so that their last digits stay feasible."""
+
+_FINE_MARGIN = 1e-8
+"""The same of a polish, for what a descent leaves on the table."""
+
+_PROGRESS = 1e-6
+"""Change of the logarithm of the error, from one quadratic program to the next, that is none."""
+
+_NEARLY_KEPT = 1e-5
+"""Margin by which a limit may be missed while a descent no longer makes progress."""
+
+_PATIENCE = 8
+"""Quadratic programs without progress after which a descent ends, feasible or not."""
 
 
 class Refinement(NamedTuple):
@@ -50,6 +62,7 @@ def refine(
     free: int,
     differentiate: Differentiate | None = None,
     max_iterations: int = 100,
+    polish: bool = False,
 ) -> Refinement:
     """Descend from a design to a local optimum within the constraints.
 
@@ -62,6 +75,7 @@ def refine(
     differentiate : the derivatives in closed form; where it gives None, and without it, central
         differences are taken.
     max_iterations : of the quadratic programs.
+    polish : whether the start is a refined design, whose limits are now to be used up.
 
     Returns
     -------
@@ -72,8 +86,15 @@ def refine(
     SLSQP on the logarithm of the height error. Central differences are scored as one batch, of
     twice as many designs as variables.
     Every point on the way is a candidate, so a failed line search loses nothing.
+
+    The overlap of azimuth bands, 1 − |d_i − d_j|, has a kink where two phase centers are abreast,
+    and good designs are nearly abreast in all segments: there the slopes jump by a thousandth from
+    one segment's kink to the next, and SLSQP, which would see them settle, zigzags over a ridge of
+    1e-8 in height for hundreds of line searches. A descent therefore ends where its quadratic
+    programs make no progress.
     """
     descent = _Descent(score, start, upper, free, differentiate)
+    descent.safe_margin = _FINE_MARGIN if polish else _SAFE_MARGIN
     interrupted = False
     try:
         minimize(
@@ -83,17 +104,18 @@ def refine(
             method="SLSQP",
             bounds=[(-1.0, 1.0)] * free,
             constraints=descent.constraints(),
+            callback=descent.accept,
             options={"maxiter": max_iterations, "ftol": _TOLERANCE},
         )
-    except _NotMeasurableError:
-        pass  # The descent left the designs that measure a height; the best so far stands.
+    except _EndOfDescentError:
+        pass  # No progress, or a design that measures no height: the best so far stands.
     except KeyboardInterrupt:
         interrupted = True
     return Refinement(descent.best_design, interrupted)
 
 
-class _NotMeasurableError(Exception):
-    """The descent reached a design without a finite height error or margin."""
+class _EndOfDescentError(Exception):
+    """The descent makes no progress, or reached a design without a finite error or margin."""
 
 
 class _Descent:
@@ -112,6 +134,21 @@ class _Descent:
         self._point: Array | None = None
         self.best_design = start
         self._best = (np.inf, np.inf)
+        self.safe_margin = _SAFE_MARGIN
+        self._accepted = math.inf
+        self._idle = 0
+
+    def accept(self, point: Array) -> None:
+        """Take the outcome of a quadratic program; end the descent if they make no progress."""
+        self._visit(point)
+        kept = np.all(self._margins > -_NEARLY_KEPT)
+        idle = kept and abs(self._value - self._accepted) < _PROGRESS
+        self._idle = self._idle + 1 if idle else 0
+        self._accepted = self._value
+        violation, objective = self._best
+        reached = violation == 0.0 and math.log(objective) < self._value + _PROGRESS
+        if self._idle >= (2 if reached else _PATIENCE):
+            raise _EndOfDescentError
 
     def constraints(self) -> tuple[dict[str, object], ...]:
         """The constraints as SLSQP takes them; none if there are no margins."""
@@ -130,7 +167,7 @@ class _Descent:
 
     def margins(self, point: Array) -> Array:
         self._visit(point)
-        safe: Array = self._margins - _SAFE_MARGIN
+        safe: Array = self._margins - self.safe_margin
         return safe
 
     def margins_gradient(self, point: Array) -> Array:
@@ -158,7 +195,7 @@ class _Descent:
             self._margin_slopes = known.margin_slopes * scale
             slopes = (self._value_slopes, self._margin_slopes)
             if not all(np.all(np.isfinite(part)) for part in (self._margins, *slopes)):
-                raise _NotMeasurableError
+                raise _EndOfDescentError
         self._point = np.array(point)
 
     def _visit_neighbors(self, point: Array) -> None:
@@ -169,7 +206,7 @@ class _Descent:
         objectives, margins = self._score(designs)
         self._remember(designs[0], float(objectives[0]), margins[0])
         if not (np.all(np.isfinite(objectives)) and np.all(np.isfinite(margins))):
-            raise _NotMeasurableError
+            raise _EndOfDescentError
         values = np.log(objectives)
         self._value, self._margins = float(values[0]), margins[0]
         self._value_slopes = self._difference(values)

@@ -7,7 +7,7 @@ designs (dumbbells and ladders), so that the result depends on the seed as littl
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -31,7 +31,7 @@ _DISTANCE = 0.3
 """Distance of designs that are refined, in parts of the box, largest coordinate: starts 5 % apart
 end in the same optimum, and the evaluations of all but one are wasted (docs/performance.md)."""
 
-_CLOSED_FORM_FROM = 3
+_CLOSED_FORM_FROM = 6
 """Satellites from which derivatives in closed form take less time than a batch of differences."""
 
 
@@ -171,6 +171,7 @@ class _Search:
     refined_objective: float = math.inf
     compiled: CompiledEvaluator | None = None
     _best: Candidate | None = None
+    _polished: Candidate | None = None
 
     @cached_property
     def slopes(self) -> Callable[[Array], DesignSlopes | None]:
@@ -234,16 +235,10 @@ class _Search:
         """
         known = iter(refined)
         candidates = self._distant_candidates(settings.refinements)
-        interrupted = any(self._refine(design, next(known, None)) for design in candidates)
-        # The cross-track sign is a choice, which no descent crosses: the best is tried with the
-        # other one too.
-        mirrored = self.space.mirrored(self._best[2]) if candidates and self._best else None
-        if mirrored is not None and not interrupted:
-            interrupted = self._refine(mirrored, next(known, None))
+        interrupted = self._refine_all(candidates, known)
         self.refined_objective = self.best_objective if self.best_feasible else np.inf
         structured = self._structured(0 if interrupted else settings.structured)
-        if not interrupted:
-            interrupted = any(self._refine(design, next(known, None)) for design in structured)
+        interrupted = interrupted or self._refine_all(structured, known)
         if len(candidates) + len(structured):
             self._append(
                 GenerationRecord(
@@ -257,13 +252,28 @@ class _Search:
             )
         return interrupted
 
+    def _refine_all(self, designs: Sequence[Array] | Array, known: Iterator[Step]) -> bool:
+        """Refine designs, then polish a new best; return whether that was interrupted."""
+        if any(self._refine(design, next(known, None)) for design in designs):
+            return True
+        if len(designs) == 0 or self._best is None or self._best is self._polished:
+            return False
+        # The cross-track sign is a choice, which no descent crosses: the best is tried with the
+        # other one too.
+        mirrored = self.space.mirrored(self._best[2])
+        if mirrored is not None and self._refine(mirrored, next(known, None)):
+            return True
+        interrupted = self._refine(self._best[2], next(known, None), polish=True)
+        self._polished = self._best
+        return interrupted
+
     def _structured(self, count: int) -> Array:
         """The best dumbbells and ladders, (≤ count, D)."""
         if count == 0:
             return np.empty((0, self.space.dimension))
         return structured_designs(self.problem, self.space, count=count, evaluate=self.evaluate)
 
-    def _refine(self, start: Array, known: Step | None) -> bool:
+    def _refine(self, start: Array, known: Step | None, *, polish: bool = False) -> bool:
         """Refine one design, unless its outcome is known; return whether that was interrupted."""
         if known is not None:
             self._take(known)
@@ -274,6 +284,7 @@ class _Search:
             upper=self.space.upper,
             free=2 * self.space.satellites,
             differentiate=self._differentiate,
+            polish=polish,
         )
         evaluation = self.evaluate(outcome.design[None])
         violation, objective = evaluation.total_violation, evaluation.objectives

@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+import os
+
+# Before NumPy is imported, as the command does: threads only slow such small matrices down.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
 import tomllib
 from dataclasses import dataclass
 from datetime import UTC, datetime

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from hypothesis import assume, given
+from hypothesis import settings as examples
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
@@ -283,6 +284,7 @@ def test_feasible_designs_come_first():
     assert best[errors.argmin()] == pytest.approx([1.0, 0.0], abs=0.15)
 
 
+@examples(max_examples=20)
 @given(seed=st.integers(0, 10**6))
 def test_never_worse_than_a_feasible_start(realistic, seed):
     problem, space = realistic()
@@ -292,7 +294,9 @@ def test_never_worse_than_a_feasible_start(realistic, seed):
     feasible = np.flatnonzero(evaluation.feasible)
     assume(len(feasible))
     start = designs[feasible[0]]
-    settings = SearchSettings(GeneticSettings(population=6, generations=1), refinements=1)
+    settings = SearchSettings(
+        GeneticSettings(population=6, generations=1), refinements=1, structured=0
+    )
     result = search(problem, space, settings=settings, rng=rng, start=start[None])
     assert result.feasible
     assert result.objective <= evaluation.objectives[feasible[0]]
