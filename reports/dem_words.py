@@ -47,14 +47,14 @@ SCALES = {
 
 DEMANDS = {
     Demand.POSTING: "posting",
-    Demand.RELATIVE: "relative error, 90 %",
-    Demand.ABSOLUTE: "absolute error, 90 %",
+    Demand.RELATIVE: "relative error, 90\u00a0%",
+    Demand.ABSOLUTE: "absolute error, 90\u00a0%",
 }
 
 QUANTITIES = {
     Quantity.TOTAL: "total, 1σ",
-    Quantity.RELATIVE: "relative, 90 %",
-    Quantity.ABSOLUTE: "absolute, 90 %",
+    Quantity.RELATIVE: "relative, 90\u00a0%",
+    Quantity.ABSOLUTE: "absolute, 90\u00a0%",
     Quantity.FAILURE: "wrong cycle",
 }
 

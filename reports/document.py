@@ -105,12 +105,14 @@ class Table:
     columns : those that are shown.
     caption : what it shows.
     marks : status of each row; empty for none.
+    notes : what is said beneath each row, over the whole width; empty for none.
     """
 
     frame: pd.DataFrame
     columns: tuple[Column, ...]
     caption: Text
     marks: tuple[Status, ...] = ()
+    notes: tuple[str, ...] = ()
 
     def cells(self) -> list[list[str]]:
         """Formatted cells, row by row."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import json
 from collections import Counter
+from collections.abc import Iterator
 from html import escape
 from importlib import resources
 from typing import Any, assert_never
@@ -133,18 +134,7 @@ class _Renderer:
             + "</th>"
             for column in table.columns
         )
-        marks = table.marks or (Status.NOTE,) * len(table.frame)
-        rows = "\n".join(
-            f'<tr class="{_MARK_CLASSES[mark]}">'
-            + "".join(
-                f'<th scope="row">{escape(cell)}</th>'
-                if index == 0
-                else f"<td{_number_class(column.numeric)}>{escape(cell)}</td>"
-                for index, (column, cell) in enumerate(zip(table.columns, row, strict=True))
-            )
-            + "</tr>"
-            for mark, row in zip(marks, table.cells(), strict=True)
-        )
+        rows = "\n".join(_rows(table))
         caption = self._caption("Table", table.caption)
         number = self._numbers["Table"]
         return (
@@ -170,6 +160,23 @@ class _Renderer:
             f'<figure><div class="card scroll" tabindex="0" role="region" aria-label="Figure '
             f'{self._numbers["Figure"]}">{image}</div>{caption}</figure>{turnable}'
         )
+
+
+def _rows(table: Table) -> Iterator[str]:
+    """Rows of the body, each followed by its note where it has one."""
+    cells = table.cells()
+    marks = table.marks or (Status.NOTE,) * len(cells)
+    notes = table.notes or ("",) * len(cells)
+    for mark, note, row in zip(marks, notes, cells, strict=True):
+        kind = f"{_MARK_CLASSES[mark]}{' noted' if note else ''}"
+        head, *others = row
+        shown = "".join(
+            f"<td{_number_class(column.numeric)}>{escape(cell)}</td>"
+            for column, cell in zip(table.columns[1:], others, strict=True)
+        )
+        yield f'<tr class="{kind}"><th scope="row">{escape(head)}</th>{shown}</tr>'
+        if note:
+            yield f'<tr class="note"><td colspan="{len(row)}">{escape(note)}</td></tr>'
 
 
 def _number_class(numeric: bool) -> str:

@@ -122,6 +122,7 @@ def _table(table: Table) -> dict[str, Any]:
         ],
         "rows": cells,
         "marks": list(table.marks),
+        "notes": list(table.notes) or [""] * len(cells),
     }
 
 

@@ -117,7 +117,7 @@ def _proved(certificate: Certificate) -> str:
     bound = f"{certificate.lower_bound:.4f} m"
     if not np.isfinite(certificate.gap):
         return bound
-    return f"{bound} ({100.0 * certificate.gap:.2g} % less)"
+    return f"{bound} (best: {100.0 * certificate.gap:.2g} % above)"
 
 
 def scene_cautions(observation: Observation | StaringScene | None) -> tuple[str, ...]:

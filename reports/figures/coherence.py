@@ -54,7 +54,7 @@ def coherence_figure(
             left = left + losses
         labels = [shortened(pair_name(problem, assessment, pair.images)) for pair in pairs]
         axes.set_yticks(rows, labels)
-        axes.invert_yaxis()
+        axes.set_ylim(len(pairs) - 0.4, -0.6)  # the first pair above, no empty rows
         axes.set_xlabel("loss −ln γ, and −ln of the share of each band in common")
         axes.grid(visible=False, axis="y")
         axes.tick_params(axis="y", length=0)

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, FancyArrowPatch
-from matplotlib.ticker import MaxNLocator
+from matplotlib.ticker import FuncFormatter, MaxNLocator
 from numpy.typing import NDArray
 
 from optimize import Assessment
@@ -20,7 +20,10 @@ from .style import WIDTH, color, draw, marker, name_series, shortened
 Array = NDArray[np.float64]
 
 _R, _T, _N = 0, 1, 2
-_AXIS_NAMES = ("radial R [m]", "along-track T [m]", "orbit normal N [m]")
+_AXIS_NAMES = ("radial R", "along-track T", "orbit normal N")
+
+_IN_KILOMETERS = 5000.0
+"""Half extent beyond which axes are in kilometers: five digits a tick would not fit [m]."""
 
 
 _LEFT, _BOTTOM, _GAP_X, _GAP_Y = 0.62, 0.4, 0.68, 0.62
@@ -135,6 +138,17 @@ def half_extents(assessment: Assessment) -> Array:
     return np.asarray(1.13 * np.maximum(reach, _LEAST * largest), dtype=np.float64)
 
 
+def _axis_unit(half: Array) -> str:
+    """Unit of the axes of a figure with these half extents [m]."""
+    return "km" if float(half.max()) > _IN_KILOMETERS else "m"
+
+
+def _in_unit(unit: str) -> FuncFormatter:
+    """Ticks in that unit of positions in meters."""
+    scale = 1e-3 if unit == "km" else 1.0
+    return FuncFormatter(lambda value, _: f"{scale * value:g}".replace("-", "−"))
+
+
 def open_side(assessment: Assessment) -> float:
     """Side along N, +1 or −1, from which the orbits are not seen edge on."""
     tilt = float(np.sum(assessment.flown.orbits[..., _R] * assessment.flown.orbits[..., _N]))
@@ -180,9 +194,11 @@ def _paint_view(
         )
     axes.set_xlim(-half[view.horizontal], half[view.horizontal])
     axes.set_ylim(-half[view.vertical], half[view.vertical])
-    axes.set_xlabel(_AXIS_NAMES[view.horizontal], labelpad=2)
-    axes.set_ylabel(_AXIS_NAMES[view.vertical], labelpad=1)
+    unit = _axis_unit(half)
+    axes.set_xlabel(f"{_AXIS_NAMES[view.horizontal]} [{unit}]", labelpad=2)
+    axes.set_ylabel(f"{_AXIS_NAMES[view.vertical]} [{unit}]", labelpad=1)
     for axis, length in ((axes.xaxis, view.width), (axes.yaxis, view.height)):
+        axis.set_major_formatter(_in_unit(unit))
         axis.set_major_locator(MaxNLocator(max(3, int(length / 0.45)), steps=[1, 2, 4, 5, 10]))
     _paint_directions(figure, view, line_of_sight)
 
@@ -265,13 +281,15 @@ def _paint_space(
         )
     axes.set_box_aspect(half[order], zoom=0.98)
     axes.view_init(elev=24, azim=56 * open_side(assessment))
+    unit = _axis_unit(half)
     for letter, index in zip("xyz", order, strict=True):
         getattr(axes, f"set_{letter}lim")(-half[index], half[index])
         axis = getattr(axes, f"{letter}axis")
         axis.set_rotate_label(letter != "z")
-        axis.set_label_text("TNR"["xyz".index(letter)] + " [m]", rotation=90)
+        axis.set_label_text(f"{'TNR'['xyz'.index(letter)]} [{unit}]", rotation=90)
         axis.labelpad = -6
         axis.set_major_locator(MaxNLocator(3, steps=[1, 2, 4, 5, 10]))
+        axis.set_major_formatter(_in_unit(unit))
         axis.set_tick_params(pad=-3, labelsize=7)
         axis.pane.set_facecolor("white")
         axis.pane.set_edgecolor("#cccccc")

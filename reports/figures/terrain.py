@@ -6,8 +6,9 @@ import math
 from typing import Any
 
 import numpy as np
+from matplotlib import colormaps
 from matplotlib.axes import Axes
-from matplotlib.colors import LightSource, ListedColormap
+from matplotlib.colors import LightSource, LinearSegmentedColormap, ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
@@ -20,6 +21,12 @@ from .style import INK, MUTED, color, draw, name_series, plain_log_ticks
 Array = NDArray[np.float64]
 
 _LAYOVER, _SHADOW, _INCOHERENT = "#b3261e", "#222222", "#e69f00"
+_LAND = LinearSegmentedColormap.from_list("land", colormaps["terrain"](np.linspace(0.25, 1.0, 256)))
+"""From green to white: the blue of the seas says nothing true of low land."""
+
+_PLACE = (0.25, 0.25)
+"""Where flight and look begin, in parts of the panel: their names fit inside on every side."""
+
 _BINS = 81
 
 
@@ -176,7 +183,7 @@ def _paint_terrain(figure: Figure, axes: Axes, result: TerrainSimulation) -> Non
     view = result.request.view
     terrain = view.terrain
     filled = np.where(np.isfinite(terrain.heights), terrain.heights, np.nanmin(terrain.heights))
-    image = _map(axes, result, terrain.heights, cmap="terrain", alpha=0.75)
+    image = _map(axes, result, terrain.heights, cmap=_LAND, alpha=0.75)
     shade = LightSource(azdeg=315, altdeg=45).hillshade(
         filled, vert_exag=3.0, dx=terrain.posting_east, dy=terrain.posting_north
     )
@@ -197,17 +204,17 @@ def _paint_terrain(figure: Figure, axes: Axes, result: TerrainSimulation) -> Non
     axes.set_title("(a) terrain", loc="left")
     heading, side = view.heading, int(view.side)
     look = heading - side * math.pi / 2
-    for angle, text, place in ((heading, "flight", (0.12, 0.14)), (look, "look", (0.12, 0.14))):
-        tip = (place[0] + 0.13 * math.sin(angle), place[1] + 0.13 * math.cos(angle))
+    for angle, text in ((heading, "flight"), (look, "look")):
+        tip = (_PLACE[0] + 0.13 * math.sin(angle), _PLACE[1] + 0.13 * math.cos(angle))
         axes.annotate(
             "",
             xy=tip,
-            xytext=place,
+            xytext=_PLACE,
             xycoords="axes fraction",
             arrowprops={"arrowstyle": "->", "color": INK, "linewidth": 1.2},
         )
         axes.text(
-            *(place[0] + 0.19 * math.sin(angle), place[1] + 0.19 * math.cos(angle)),
+            *(_PLACE[0] + 0.19 * math.sin(angle), _PLACE[1] + 0.19 * math.cos(angle)),
             text,
             transform=axes.transAxes,
             ha="center",

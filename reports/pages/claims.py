@@ -36,7 +36,6 @@ def claims_section(claims: Sequence[Claim], inputs: str, *, digits: int = 3) -> 
     frame["computed"] = [_with_unit(claim.computed, claim.unit, digits) for claim in claims]
     frame["possible"] = [_possible(claim, digits) for claim in claims]
     frame["agrees"] = [_agreeing(claim) for claim in claims]
-    frame["note"] = [_why(claim) for claim in claims]
     frame["verdict"] = [f"{_mark(claim)} {claim.verdict.value}" for claim in claims]
     return Section(
         "claims",
@@ -51,12 +50,12 @@ def claims_section(claims: Sequence[Claim], inputs: str, *, digits: int = 3) -> 
                     Column("computed", f"From the {inputs}", "", list),
                     *_possible_column(claims),
                     Column("verdict", "Verdict"),
-                    Column("note", "Why"),
                 ),
                 "Each printed figure, the same quantity computed from the "
                 f"{inputs}, and whether the one follows from the other: whether the computed "
                 "figure lies within what the study grants the printed one.",
                 tuple(_MARKS[claim.verdict] for claim in claims),
+                tuple(_why(claim) for claim in claims),
             ),
         ),
     )

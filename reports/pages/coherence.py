@@ -26,6 +26,9 @@ _NAMES = {
     "temporal": "Time",
 }
 
+_SIDE_BY_SIDE = 7
+"""Columns beside the pair's name that one table holds."""
+
 _tenths = partial(fixed, decimals=1)
 _hundredths, _thousandths = partial(fixed, decimals=2), partial(fixed, decimals=3)
 
@@ -43,27 +46,29 @@ def coherence_section(problem: Problem, assessment: Assessment) -> Section | Non
         return None
     names = [name for name in _NAMES if _counted(name, pairs)]
     frame = _frame(problem, assessment, pairs, names)
-    columns = [Column("pair", "Pair")]
-    columns += [Column(key, _NAMES[key], "", to_span(_thousandths)) for key in names]
-    columns.append(Column("coherence", "Coherence", "", to_span(_thousandths)))
-    bands = [
-        Column("pair", "Pair"),
-        Column("common_range", "Common range band", "", to_span(_thousandths)),
-    ]
+    pair = Column("pair", "Pair")
+    factors = [Column(key, _NAMES[key], "", to_span(_thousandths)) for key in names]
+    factors.append(Column("coherence", "Coherence", "", to_span(_thousandths)))
+    bands = [Column("common_range", "Common range band", "", to_span(_thousandths))]
     if problem.radar.azimuth_resolution is not None and not problem.radar.pursuit:
         bands.append(Column("common_azimuth", "Common azimuth band", "", to_span(_thousandths)))
     bands.append(Column("looks", "Looks", "", to_span(_tenths)))
     if pairs[0].volume_bias is not None:
         bands.append(Column("volume_bias_m", "Volume bias", "m", to_span(_hundredths)))
     name = formation_name(assessment.label)
+    budget = f"Coherence budget of the {name}"
+    kept = "shares of the bands that the images of a pair have in common"
+    tables = [
+        Table(frame, (pair, *factors, *bands), f"{budget}: factors of each pair, and {kept}.")
+    ]
+    if len(factors) + len(bands) > _SIDE_BY_SIDE:
+        tables = [
+            Table(frame, (pair, *factors), f"{budget}: factors of each pair."),
+            Table(frame, (pair, *bands), f"{budget}: {kept}."),
+        ]
     blocks: list[Block] = [
         Paragraph(_text(problem, names)),
-        Table(
-            frame,
-            tuple(columns),
-            f"Coherence budget of the {name}: factors of each pair.",
-        ),
-        Table(frame, tuple(bands), f"Shares of the bands that pairs of the {name} keep in common."),
+        *tables,
         Figure(
             coherence_figure(problem, assessment, pairs, {name: _NAMES[name] for name in names}),
             "What each factor takes, in the segment that loses most: −ln γ adds up over the "

@@ -166,10 +166,13 @@ def _ladder_text(problem: Problem, ladder: Assessment, prior_height_std: float) 
     )
     unwrapping = ladder.unwrapping
     if unwrapping is not None and unwrapping.probability.size and len(unwrapping.rungs) > 1:
+        before = probability(float(unwrapping.probability.min()))
+        after = probability(float(unwrapping.decorrelated.min()))
+        gain = f"leaves the probability in the worst segment at {after}"
+        if after != before:
+            gain = f"raises the probability in the worst segment from {before} to {after}"
         text += (
-            " With the ambiguities decorrelated first (LAMBDA), the probability in the worst "
-            f"segment is {probability(float(unwrapping.decorrelated.min()))} instead of "
-            f"{probability(float(unwrapping.probability.min()))}; no integer estimator exceeds "
+            f" Decorrelating the ambiguities first (LAMBDA) {gain}; no integer estimator exceeds "
             f"{probability(float(unwrapping.ceiling.min()))}."
         )
     beyond = [str(number) for number in rungs_beyond_critical(problem, ladder)]

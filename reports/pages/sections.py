@@ -158,6 +158,7 @@ def height_error_section(problem: Problem, formations: Sequence[Shown]) -> Secti
     frame = region_frame([shown.assessment for shown in formations])
     numbers = to_digits(4)
     frame["feasible"] = ["yes" if feasible else "no" for feasible in frame["feasible"]]
+    limited = any(shown.assessment.constraints for shown in formations)
     blocks: list[Block] = [
         Table(
             frame,
@@ -168,7 +169,7 @@ def height_error_section(problem: Problem, formations: Sequence[Shown]) -> Secti
                 Column("largest_m", "max", "m", numbers),
                 Column("relative_rms_m", "Relative, RMS", "m", numbers),
                 *_unwrapping_column(frame),
-                Column("feasible", "Keeps all limits"),
+                *((Column("feasible", "Keeps all limits"),) if limited else ()),
             ),
             f"Height error over the {counted(len(problem.scene), 'segment')} of the scene. The "
             "relative error is the part that varies from pixel to pixel"
@@ -292,8 +293,9 @@ def comparison_section(best: Assessment, others: Sequence[Assessment]) -> Sectio
         return None
     frame = comparison_frame([best, *others])
     failures = [broken(one) for one in (best, *others)]
+    kept = "all kept" if best.constraints else "none set"
     frame["limits"] = [
-        "; ".join(f"{r.limit.name} {value_text(r)}, {limit_text(r)}" for r in reports) or "all kept"
+        "; ".join(f"{r.limit.name} {value_text(r)}, {limit_text(r)}" for r in reports) or kept
         for reports in failures
     ]
     numbers = to_digits(4)
