@@ -169,5 +169,5 @@ def _read(source: Path) -> bytes:
 def _missing_file(source: Path) -> str:
     near = closest(source.stem, example_names())
     if near is None:
-        return f"does not exist; the shipped examples are {', '.join(example_names())}"
+        return "does not exist; correct its name, or take an example (formation-opt --list)"
     return f"does not exist; did you mean the shipped example? formation-opt {near}"

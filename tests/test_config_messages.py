@@ -632,7 +632,7 @@ def test_a_missing_file_suggests_the_shipped_example(tmp_path, monkeypatch):
         "formation-opt three_sat"
     )
     assert refused("configs/tree_sat.yaml").endswith("formation-opt three_sat")
-    assert "the shipped examples are cartwheel, evaluate_example" in refused("xyz.yaml")
+    assert refused("xyz.yaml").endswith("take an example (formation-opt --list)")
 
 
 def test_an_unknown_example_suggests_the_closest():
