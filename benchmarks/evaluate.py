@@ -33,7 +33,13 @@ from time import process_time
 
 import numpy as np
 from numpy.typing import NDArray
-from problems import REALISTIC_LIMITS, paper_problem, realistic_errors, realistic_problem
+from problems import (
+    REALISTIC_LIMITS,
+    paper_problem,
+    realistic_errors,
+    realistic_problem,
+    shipped_problem,
+)
 
 from formation import min_separation, relative_positions
 from insar import (
@@ -165,6 +171,7 @@ def compiled_and_bound(*, batch: int, seconds: float) -> None:
     cases = {
         "plain: pairs, no limits": paper_problem(3, errors=PLAIN, constraints=Constraints()),
         "joint, filtered, unwrapping": realistic_problem(3),
+        "three_sat as shipped": shipped_problem("three_sat"),
     }
     for label, (problem, space) in cases.items():
         evaluator, straight = compiled_evaluator(problem, space), hand_written(problem, space)

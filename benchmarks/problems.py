@@ -9,6 +9,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+import configs
+from configs.build import build_optimize
+from configs.loader import load_study
 from formation import Orbit, ground_track_circular
 from insar import (
     BaselineDecorrelation,
@@ -114,6 +117,18 @@ def paper_problem(
         constraints=constraints,
     )
     return problem, _space(satellites, radius=1211.2, signs=(1,))
+
+
+def shipped_problem(name: str) -> tuple[Problem, DesignSpace]:
+    """The problem of a study that comes with the program.
+
+    Parameters
+    ----------
+    name : of the study, which optimizes.
+    """
+    study = load_study(Path(configs.__file__).parent / f"{name}.yaml").study
+    setup = build_optimize(study)
+    return setup.problem, setup.space
 
 
 def landscapes(*, counts: tuple[int, ...] = (3, 5, 8), quick: bool = False) -> list[Landscape]:

@@ -5,8 +5,9 @@ be a fourth: what the compiled evaluator would be if it knew but one problem. Bo
 of `benchmarks/evaluate.py`, one transmitter, and give the same numbers to 1e-9, which is checked.
 
 plain: pairs measured apart with one given deviation, shared position and azimuth errors, no
-decorrelation, no limits. default: joint information after filtering to the common bands, the same
-shared errors, unwrapping, radius and separation.
+decorrelation, no limits. default: joint information after filtering to the common bands in range and
+azimuth, exact phase statistics, the same shared errors, unwrapping, radius and separation: the model
+of `three_sat` as shipped.
 """
 
 from __future__ import annotations
@@ -50,8 +51,35 @@ def plain(designs, side, height, azimuth, beta, factor, shift, out):  # type: ig
 
 
 @_jit
+def efficiency(area, looks, curve):  # type: ignore[no-untyped-def]
+    cubics, rate, contrast = curve
+    looks = looks * area
+    share = 1.0 / (1.0 + rate * looks)
+    position = share * len(cubics)
+    interval = min(int(position), len(cubics) - 1)
+    t = position - interval
+    scaled = ((cubics[interval, 3] * t + cubics[interval, 2]) * t + cubics[interval, 1]) * t
+    scaled += cubics[interval, 0]
+    return min(scaled / (max(2.0 * looks * contrast, 1e-300) * share), 1.0)
+
+
+@_jit
 def default(  # type: ignore[no-untyped-def]
-    designs, height, azimuth, range_rate, u, looks, own, factor, prior, shift, limits, out, worst
+    designs,
+    height,
+    azimuth,
+    range_rate,
+    doppler_rate,
+    u,
+    looks,
+    curve,
+    own,
+    factor,
+    prior,
+    shift,
+    limits,
+    out,
+    worst,
 ):
     radius_limit, separation_limit, failure_limit, n = limits
     for p in range(designs.shape[0]):
@@ -74,19 +102,22 @@ def default(  # type: ignore[no-untyped-def]
         total, failed = 0.0, 0.0
         for s in range(shift.size):
             h0, h1 = height[side, s, 0], height[side, s, 1]
-            a0, a1 = azimuth[side, s, 0] * factor, azimuth[side, s, 1] * factor
+            a0, a1 = azimuth[side, s, 0], azimuth[side, s, 1]
             k1, k2 = h0 * z1 + h1 * y1, h0 * z2 + h1 * y2
-            c1, c2 = a0 * z1 + a1 * y1, a0 * z2 + a1 * y2
+            c1, c2 = factor * (a0 * z1 + a1 * y1), factor * (a0 * z2 + a1 * y2)
             o1, o2 = k1 * range_rate[s], k2 * range_rate[s]
-            v01 = max(0.0, 1.0 - abs(o1))
-            v02 = max(0.0, 1.0 - abs(o2))
-            v12 = max(0.0, 1.0 - abs(o2 - o1))
-            every = min(v01, min(v02, v12))  # seen by all three, but where the widest pair is apart
+            e1, e2 = (a0 * z1 + a1 * y1) * doppler_rate[s], (a0 * z2 + a1 * y2) * doppler_rate[s]
+            v01 = max(0.0, 1.0 - abs(o1)) * max(0.0, 1.0 - abs(e1))
+            v02 = max(0.0, 1.0 - abs(o2)) * max(0.0, 1.0 - abs(e2))
+            v12 = max(0.0, 1.0 - abs(o2 - o1)) * max(0.0, 1.0 - abs(e2 - e1))
+            across = max(0.0, max(o1, o2)) - min(0.0, min(o1, o2))
+            along = max(0.0, max(e1, e2)) - min(0.0, min(e1, e2))
+            every = max(0.0, 1.0 - across) * max(0.0, 1.0 - along)
             two, three = 1.0 / (1.0 + 2.0 * u), 1.0 / (1.0 + 3.0 * u)
             scale = 2.0 * looks * u * u
-            x01 = scale * ((v01 - every) * two + every * three)
-            x02 = scale * ((v02 - every) * two + every * three)
-            x12 = scale * ((v12 - every) * two + every * three)
+            x01 = scale * ((v01 - every) * two + every * three) * efficiency(v01, looks, curve)
+            x02 = scale * ((v02 - every) * two + every * three) * efficiency(v02, looks, curve)
+            x12 = scale * ((v12 - every) * two + every * three) * efficiency(v12, looks, curve)
             d1, d2 = x01 + x12, x02 + x12
             det = 1.0 / ((d1 + 1e-12) * (d2 + 1e-12) - x12 * x12)
             q11 = d2 * det + 2.0 * own + c1 * c1
@@ -107,7 +138,10 @@ def default(  # type: ignore[no-untyped-def]
 def hand_written(problem: Problem, space: DesignSpace) -> Callable[[Array], Array]:
     """Designs → region height errors, by the straight line that fits the problem."""
     k = constants(problem, space)
-    own = float(k.shared[1, 1]) / 2.0
+    own = k.own_variance
+    # Without exact statistics a curve that nothing reaches: an efficiency of 1.
+    exact = (k.eta_cubics, k.eta_rate[0], k.eta_contrast[0])
+    curve = exact if k.has_efficiency else (np.full((1, 4), 1e300), 0.0, 1.0)
     height = k.height * k.per_height[:, None]
     per_kz = k.range_rate / k.per_height
     limits = (k.max_radius, k.min_separation, k.failure_limit, k.mean_motion)
@@ -115,7 +149,7 @@ def hand_written(problem: Problem, space: DesignSpace) -> Callable[[Array], Arra
     def score(designs: Array) -> Array:
         out = np.empty(len(designs))
         if k.decorrelation == 0:
-            side = 1 if k.signs > 0 else 0
+            side = 1 if k.sign > 0 else 0
             plain(designs, side, height, k.azimuth, k.alike, k.azimuth_factor, k.shift, out)
             return out
         worst: Any = np.empty((len(designs), 3))
@@ -124,8 +158,10 @@ def hand_written(problem: Problem, space: DesignSpace) -> Callable[[Array], Arra
             height,
             k.azimuth,
             per_kz,
+            k.doppler_rate,
             k.weight[0, 0],
             k.looks,
+            curve,
             own,
             k.azimuth_factor,
             k.prior**2,

@@ -35,8 +35,10 @@ _CLOSED_FORM_FROM = 6
 """Satellites from which derivatives in closed form take less time than a batch of differences."""
 
 
-_COMPILED_FROM = 20_000
-"""Formations from which compiled loops earn back the second that their compiler takes to load."""
+_COMPILED_FROM = 2000
+"""Formations of the populations from which compiled loops earn back the half second that they take
+to load (docs/performance.md). Whether they are compiled already must not matter: their results
+differ from those of the arrays in the last digits."""
 
 
 class SearchSettings(NamedTuple):

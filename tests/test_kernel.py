@@ -14,9 +14,11 @@ from hypothesis import strategies as st
 from formation import Orbit, ground_track_circular, space_circular
 from insar import (
     BaselineDecorrelation,
+    CoherenceBudget,
     ErrorBudget,
     ErrorSource,
     HeldConstant,
+    PhaseStatistics,
     Radar,
     Scene,
     SharedBy,
@@ -25,6 +27,7 @@ from insar import (
     one_transmitter,
     ping_pong,
 )
+from insar.coherence import UniformVolume
 from optimize import (
     Constraints,
     DesignSpace,
@@ -34,7 +37,6 @@ from optimize import (
     search,
 )
 from optimize.kernel import compiled_evaluator
-from optimize.kernel.constants import supported
 
 pytest.importorskip("numba")
 
@@ -53,15 +55,14 @@ ALL_LIMITS = Constraints(
 @st.composite
 def problems(draw):
     rng = np.random.default_rng(draw(st.integers(0, 2**32 - 1)))
-    count = draw(st.integers(2, 7))
+    count = draw(st.sampled_from([2, 3, 4, 5, 7, 9]))  # by sets of images, and by cells
     joint = draw(st.booleans())
-    decorrelation = draw(
-        st.sampled_from(
-            [BaselineDecorrelation.FILTERED, BaselineDecorrelation.NONE]
-            + ([] if joint else [BaselineDecorrelation.UNFILTERED])
-        )
-    )
+    decorrelation = draw(st.sampled_from(BaselineDecorrelation))
+    segments = draw(st.integers(1, 5))
     pair = not joint and draw(st.booleans())
+    images = draw(st.sampled_from([one_transmitter, monostatic]))(count)
+    if count == 2 and draw(st.booleans()):
+        images = ping_pong(count)
     errors = ErrorBudget(
         position=ErrorSource(rng.choice([0.0, 1e-3, 0.01]), SharedBy.SATELLITE),
         azimuth=ErrorSource(rng.choice([0.0, 1e-5]), SharedBy.PAIR if pair else SharedBy.ALL),
@@ -73,10 +74,12 @@ def problems(draw):
         baseline_decorrelation=decorrelation,
         held_constant=draw(st.sampled_from(HeldConstant)),
         phase_std=0.2 if not joint and draw(st.booleans()) else None,
+        phase_statistics=draw(st.sampled_from(PhaseStatistics)),
+        coherence=CoherenceBudget(
+            relative_snr=draw(st.sampled_from([1.0, tuple(rng.uniform(0.5, 2.0, segments))])),
+            image_snr=draw(st.sampled_from([(), tuple(rng.uniform(0.5, 2.0, len(images)))])),
+        ),
     )
-    images = draw(st.sampled_from([one_transmitter, monostatic]))(count)
-    if count == 2 and draw(st.booleans()):
-        images = ping_pong(count)
     limits = ALL_LIMITS
     for name in ("max_radius", "min_separation", "max_baseline_fraction", "max_offset"):
         if draw(st.booleans()):
@@ -84,7 +87,7 @@ def problems(draw):
     if draw(st.booleans()):
         limits = dataclasses.replace(limits, min_unwrapping_probability=None)
     scene = Scene.broadside_strip(
-        times=np.sort(rng.uniform(0.0, 3000.0, rng.integers(1, 6))),
+        times=np.sort(rng.uniform(0.0, 3000.0, segments)),
         look_angle=np.deg2rad(rng.uniform(15.0, 45.0)),
         altitude=514e3,
         earth_radius=6_378_137.0,
@@ -120,9 +123,6 @@ def test_compiled_scores_are_those_of_the_array_form(case):
     problem, space, designs = case
     designs[:10] *= 0.05  # close formations, which keep more of the band
     compiled = compiled_evaluator(problem, space)
-    if not supported(problem, space):
-        assert compiled is None
-        return
     assert compiled is not None
     objectives, items = compiled.objectives_and_margins(designs)
     expected, margins = problem.objectives_and_margins(space.states(designs))
@@ -204,7 +204,7 @@ def test_designs_that_measure_nothing_are_infinite():
 
 
 def test_a_problem_that_the_loops_do_not_know_is_left_to_arrays():
-    problem, space = example(baseline_decorrelation=BaselineDecorrelation.UNFILTERED)
+    problem, space = example(coherence=CoherenceBudget(volume=UniformVolume(height=10.0)))
     assert compiled_evaluator(problem, space) is None
 
 

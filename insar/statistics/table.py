@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import cache
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -130,6 +131,39 @@ def log_variance(log_contrast: Array, looks: Array) -> Array:
             along += weight[j] * np.take(flat, corner + (i * (SHARES + 1) + j))
         result += row_weight[i] * along
     return result
+
+
+class VarianceLine(NamedTuple):
+    """The table at a given number of looks.
+
+    Attributes
+    ----------
+    start : ln κ of the first value.
+    spacing : step of ln κ from value to value.
+    values : (rows,) — ln σ² [ln rad²].
+    """
+
+    start: float
+    spacing: float
+    values: Array
+
+
+def log_variance_line(looks: float) -> VarianceLine:
+    """Logarithm of the exact phase variance over the contrast alone.
+
+    Parameters
+    ----------
+    looks : scalar — L, above 0.
+
+    Returns
+    -------
+    VarianceLine — the cubics over its points are those of `log_variance`.
+    """
+    share = 1.0 / (1.0 + looks)
+    start, weight = _cubic(np.array(share * SHARES), SHARES + 1)
+    columns = log_variance_table()[:, int(start) : int(start) + 4]
+    values = columns @ np.array([float(part) for part in weight])
+    return VarianceLine(float(_LOWEST + np.log(share)), SPACING, values)
 
 
 def _cubic(position: Array, count: int) -> tuple[NDArray[np.intp], tuple[Array, ...]]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import threading
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache
 from itertools import pairwise
@@ -14,7 +15,9 @@ from numpy.typing import NDArray
 from ..constraints import FEASIBILITY_TOLERANCE
 from ..design_space import DesignSpace
 from ..problem import Evaluation, Problem
-from .constants import constants, scratch, supported
+from .constants import by_address, constants
+from .rooms import Space, rooms
+from .support import supported
 
 Array = NDArray[np.float64]
 
@@ -37,10 +40,12 @@ class CompiledEvaluator:
 
     def __init__(self, problem: Problem, space: DesignSpace, compiled: ModuleType) -> None:
         self._compiled = compiled
-        self._constants = constants(problem, space)
+        self._constants = constants(problem, space)  # holds what the addresses point to
+        self._record = by_address(self._constants)
         self._limits = len(problem.limits)
         probe = problem.population(space.states(np.zeros((1, space.dimension))))
         self._items = sum(limit.margins(probe).shape[-1] for limit in problem.limits)
+        self._spaces = threading.local()
 
     def evaluate(self, designs: Array) -> Evaluation:
         """Score designs.
@@ -75,11 +80,21 @@ class CompiledEvaluator:
         count = len(vectors)
         objectives = np.empty(count)
         worst, every = np.empty((count, self._limits)), np.empty((count, items))
+        source, constants = vectors.ctypes.data, self._record.ctypes.data
+        scores, margins, details = objectives.ctypes.data, worst.ctypes.data, every.ctypes.data
 
         def score(begin: int, end: int) -> None:
-            room = scratch(self._constants)
+            space = self._space(items)
             self._compiled.score_range(
-                vectors, begin, end, self._constants, room, objectives, worst, every
+                source,
+                begin,
+                end,
+                constants,
+                space.address,
+                scores,
+                margins,
+                details,
+                items,
             )
 
         if count < _PARALLEL_FROM:
@@ -90,6 +105,15 @@ class CompiledEvaluator:
         for done in [_pool().submit(score, begin, end) for begin, end in pairwise(parts)]:
             done.result()
         return objectives, worst, every
+
+    def _space(self, items: int) -> Space:
+        """Memory of this thread, with room for items or without."""
+        name = "detailed" if items else "plain"
+        space: Space | None = getattr(self._spaces, name, None)
+        if space is None:
+            space = Space(rooms(self._constants, items=items))
+            setattr(self._spaces, name, space)
+        return space
 
 
 def _threads() -> int:
@@ -111,17 +135,15 @@ def compiled_evaluator(problem: Problem, space: DesignSpace) -> CompiledEvaluato
 
     Returns
     -------
-    CompiledEvaluator; None where numba is not installed, or the problem has a part that the
-    compiled loops do not know: a joint weighting without filtering, volume or temporal
-    decorrelation, a family or a kind of problem of your own.
+    CompiledEvaluator; None where numba is not installed or can keep nothing of what it compiles,
+    or the problem has a part that the compiled loops do not know: volume or temporal decorrelation,
+    a family or a kind of problem of your own.
     """
-    if type(problem) is not Problem or type(space) is not DesignSpace:
-        return None  # a subclass may score otherwise, or count what is scored
     if not supported(problem, space):
         return None
     try:
-        from . import compiled
-    except ImportError:
+        from . import score as compiled
+    except (ImportError, RuntimeError):  # RuntimeError: no folder to keep the compiled code in
         return None
     evaluator = CompiledEvaluator(problem, space, compiled)
     return evaluator if _agree(evaluator, problem, space) else None
