@@ -5,9 +5,9 @@ be a fourth: what the compiled evaluator would be if it knew but one problem. Bo
 of `benchmarks/evaluate.py`, one transmitter, and give the same numbers to 1e-9, which is checked.
 
 plain: pairs measured apart with one given deviation, shared position and azimuth errors, no
-decorrelation, no limits. default: joint information after filtering to the common bands in range and
-azimuth, exact phase statistics, the same shared errors, unwrapping, radius and separation: the model
-of `three_sat` as shipped.
+decorrelation, no limits. default: joint information after filtering to the common bands in range
+and azimuth, exact phase statistics, the same shared errors, unwrapping, radius and separation: the
+model of `three_sat` as shipped.
 """
 
 from __future__ import annotations
