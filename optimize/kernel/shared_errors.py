@@ -68,7 +68,7 @@ def _triangular(factor: Array) -> Array:
     """Return a factor of the same FFᵀ with no more columns than it has rows that count."""
     if factor.shape[1] == 0:
         return factor
-    upper = np.linalg.qr(factor[1:].T, mode="r")
+    upper = np.linalg.qr(factor[1:].T).R
     return np.concatenate([np.zeros((1, len(upper))), upper.T])
 
 
