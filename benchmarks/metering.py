@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field
 from time import process_time
-from typing import Any, TypeVar
+from typing import NamedTuple, TypeVar
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from optimize import DesignSpace, Evaluation, Problem
 from optimize.constraints import FEASIBILITY_TOLERANCE
+from optimize.search import Evaluator
 
 Array = NDArray[np.float64]
 Result = TypeVar("Result")
@@ -39,24 +40,20 @@ class Meter:
     evaluations: int = 0
     seconds: float = 0.0
     best: float = np.inf
-    running: bool = False
     start: float = field(default_factory=process_time)
     improvements: list[tuple[float, float]] = field(default_factory=list)
 
-    def timed(self, function: Callable[[], Result]) -> Result:
-        """Call a function on the evaluator's clock; nested calls count once."""
-        if self.running:
-            return function()
-        self.running, start = True, process_time()
+    def timed(self, function: Callable[[Array], Result], designs: Array) -> Result:
+        """Score designs on the evaluator's clock."""
+        start = process_time()
         try:
-            return function()
+            return function(designs)
         finally:
             self.seconds += process_time() - start
-            self.running = False
 
-    def admit(self, states: Array) -> Array:
-        """The states that the budget still allows."""
-        admitted = states[: int(min(self.budget - self.evaluations, len(states)))]
+    def admit(self, designs: Array) -> Array:
+        """The designs that the budget still allows."""
+        admitted = designs[: int(min(self.budget - self.evaluations, len(designs)))]
         if len(admitted) == 0:
             raise BudgetSpentError
         self.evaluations += len(admitted)
@@ -74,57 +71,45 @@ class Meter:
         return next((time for time, best in self.improvements if best <= target), np.inf)
 
 
-@dataclass(frozen=True, kw_only=True)
-class MeteredProblem(Problem):
-    """A problem whose evaluations are metered.
+class ArrayEvaluator(NamedTuple):
+    """The array form, design vectors to scores."""
+
+    problem: Problem
+    space: DesignSpace
+
+    def evaluate(self, designs: Array) -> Evaluation:
+        """Scores of designs."""
+        return self.problem.evaluate(self.space.states(designs))
+
+    def objectives_and_margins(self, designs: Array) -> tuple[Array, Array]:
+        """Height errors and all margins of designs."""
+        objectives, margins = self.problem.objectives_and_margins(self.space.states(designs))
+        return objectives, np.concatenate(margins, axis=-1)
+
+
+class MeteredEvaluator(NamedTuple):
+    """An evaluator on a meter.
 
     The last batch within the budget is cut to it, scored, and then ends the search.
     """
 
+    inner: Evaluator
     meter: Meter
 
-    def evaluate(self, states: ArrayLike) -> Evaluation:
-        asked = np.asarray(states, dtype=np.float64)
-        admitted = self.meter.admit(asked)
-        result = self.meter.timed(lambda: super(MeteredProblem, self).evaluate(admitted))
+    def evaluate(self, designs: Array) -> Evaluation:
+        """Scores of designs."""
+        admitted = self.meter.admit(designs)
+        result = self.meter.timed(self.inner.evaluate, admitted)
         self.meter.note(result.objectives, result.feasible)
-        if len(admitted) < len(asked):
+        if len(admitted) < len(designs):
             raise BudgetSpentError
         return result
 
-    def objectives_and_margins(self, states: ArrayLike) -> tuple[Array, list[Array]]:
-        score = super().objectives_and_margins
-        if self.meter.running:  # from `evaluate`, which has counted it
-            return score(states)
-        asked = np.asarray(states, dtype=np.float64)
-        admitted = self.meter.admit(asked)
-        objectives, margins = self.meter.timed(lambda: score(admitted))
-        worst = np.min([margin.min(axis=-1) for margin in margins], axis=0)
-        self.meter.note(objectives, worst >= -FEASIBILITY_TOLERANCE)
-        if len(admitted) < len(asked):
+    def objectives_and_margins(self, designs: Array) -> tuple[Array, Array]:
+        """Height errors and all margins of designs."""
+        admitted = self.meter.admit(designs)
+        objectives, margins = self.meter.timed(self.inner.objectives_and_margins, admitted)
+        self.meter.note(objectives, margins.min(axis=-1) >= -FEASIBILITY_TOLERANCE)
+        if len(admitted) < len(designs):
             raise BudgetSpentError
         return objectives, margins
-
-
-@dataclass(frozen=True, kw_only=True)
-class MeteredSpace(DesignSpace):
-    """A design space whose decoding is on the evaluator's clock."""
-
-    meter: Meter
-
-    def states(self, designs: ArrayLike) -> Array:
-        return self.meter.timed(lambda: super(MeteredSpace, self).states(designs))
-
-
-def metered(
-    problem: Problem, space: DesignSpace, meter: Meter
-) -> tuple[MeteredProblem, MeteredSpace]:
-    """The same problem and space with a meter in them."""
-    return (
-        MeteredProblem(**_parameters(problem), meter=meter),
-        MeteredSpace(**_parameters(space), meter=meter),
-    )
-
-
-def _parameters(thing: Problem | DesignSpace) -> dict[str, Any]:
-    return {field.name: getattr(thing, field.name) for field in fields(thing)}

@@ -11,11 +11,18 @@ from typing import NamedTuple
 
 import numpy as np
 from deap import base, creator, tools
-from metering import MeteredProblem, MeteredSpace
+from metering import MeteredEvaluator
 from numpy.typing import NDArray
 from scipy.optimize import NonlinearConstraint, differential_evolution, dual_annealing
 
-from optimize import CovarianceSettings, DifferentialSettings, SearchSettings, search
+from optimize import (
+    CovarianceSettings,
+    DesignSpace,
+    DifferentialSettings,
+    Problem,
+    SearchSettings,
+    search,
+)
 from optimize.constraints import FEASIBILITY_TOLERANCE
 from optimize.refinement import refine
 
@@ -23,10 +30,11 @@ Array = NDArray[np.float64]
 
 
 class Task(NamedTuple):
-    """What a peer is given: metered problem and space, our settings, and the seed."""
+    """What a peer is given: problem, space, a metered evaluator, our settings, and the seed."""
 
-    problem: MeteredProblem
-    space: MeteredSpace
+    problem: Problem
+    space: DesignSpace
+    evaluator: MeteredEvaluator
     settings: SearchSettings
     seed: int
 
@@ -37,7 +45,7 @@ class Task(NamedTuple):
 def our_search(task: Task) -> None:
     """`optimize.search`: genetic algorithm, then refinement of its best designs."""
     rng = np.random.default_rng(task.seed)
-    search(task.problem, task.space, settings=task.settings, rng=rng)
+    search(task.problem, task.space, settings=task.settings, rng=rng, evaluator=task.evaluator)
 
 
 def with_algorithm(task: Task, *, algorithm: DifferentialSettings | CovarianceSettings) -> None:
@@ -66,13 +74,13 @@ creator.create("Formation", list, fitness=creator.Lexicographic)
 
 def plain_deap(task: Task) -> None:
     """The same genetic algorithm as the DEAP manual writes it: one individual at a time."""
-    problem, space, settings = task.problem, task.space, task.settings.algorithm
+    settings = task.settings.algorithm
     random.seed(task.seed)
-    upper = space.upper.tolist()
+    upper = task.space.upper.tolist()
     lower = [-bound for bound in upper]
 
     def score(individual: list[float]) -> tuple[float, float]:
-        evaluation = problem.evaluate(space.states(np.array([individual])))
+        evaluation = task.evaluator.evaluate(np.array([individual]))
         return float(evaluation.total_violation[0]), float(evaluation.objectives[0])
 
     box = {"low": lower, "up": upper}
@@ -121,7 +129,7 @@ def de_deb(task: Task) -> None:
     """Deb's rules in one number: every feasible formation lies below every infeasible one."""
 
     def score(columns: Array) -> Array:
-        evaluation = task.problem.evaluate(task.space.states(columns.T))
+        evaluation = task.evaluator.evaluate(np.ascontiguousarray(columns.T))
         infeasible = 1e3 + evaluation.total_violation  # no height error of use reaches 1 km
         return np.where(evaluation.feasible, evaluation.objectives, infeasible)
 
@@ -132,7 +140,7 @@ def de_penalty(task: Task, *, weight: float = 3.0) -> None:
     """The error, raised in proportion to the violation; of weights 3 and 10 the best."""
 
     def score(columns: Array) -> Array:
-        evaluation = task.problem.evaluate(task.space.states(columns.T))
+        evaluation = task.evaluator.evaluate(np.ascontiguousarray(columns.T))
         objectives = np.minimum(evaluation.objectives, 1e3)
         return objectives * (1.0 + weight * evaluation.total_violation)
 
@@ -152,7 +160,7 @@ def de_constraints(task: Task, *, polish: bool = False, refined: bool = False) -
         keys = [design.tobytes() for design in designs]
         new = [index for index, key in enumerate(keys) if key not in known]
         if new:
-            objectives, margins = score_all(task, designs[new])
+            objectives, margins = task.evaluator.objectives_and_margins(designs[new])
             found = zip(objectives.tolist(), margins, strict=True)
             known.update(zip((keys[index] for index in new), found, strict=True))
         return [known[key] for key in keys]
@@ -174,12 +182,8 @@ def de_constraints(task: Task, *, polish: bool = False, refined: bool = False) -
         rounds = UNTIL_SPENT
     best = evolve(task, objective, limits=(limits,), rounds=rounds, polish=polish)
     if refined:
-        refine(partial(score_all, task), best, upper=upper, free=2 * task.space.satellites)
-
-
-def score_all(task: Task, designs: Array) -> tuple[Array, Array]:
-    objectives, margins = task.problem.objectives_and_margins(task.space.states(designs))
-    return objectives, np.concatenate(margins, axis=-1)
+        score = task.evaluator.objectives_and_margins
+        refine(score, best, upper=upper, free=2 * task.space.satellites)
 
 
 def evolve(
@@ -223,7 +227,7 @@ def scalar(task: Task) -> Callable[[Array], float]:
 def scores(task: Task, points: Array) -> Array:
     """Deb's rules in one number, of (P, D) designs in the box scaled to ±1."""
     designs = np.clip(points, -1.0, 1.0) * task.space.upper
-    evaluation = task.problem.evaluate(task.space.states(designs))
+    evaluation = task.evaluator.evaluate(designs)
     return np.where(evaluation.feasible, evaluation.objectives, 1e3 + evaluation.total_violation)
 
 
@@ -278,7 +282,7 @@ def pymoo(task: Task, *, algorithm: str) -> None:
             if not constrained:
                 out["F"] = scores(task, np.atleast_2d(points))
                 return
-            evaluation = task.problem.evaluate(task.space.states(points * task.space.upper))
+            evaluation = task.evaluator.evaluate(points * task.space.upper)
             out["F"] = np.minimum(evaluation.objectives, 1e3)
             out["G"] = evaluation.violations
 

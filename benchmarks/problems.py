@@ -12,7 +12,7 @@ import numpy as np
 import configs
 from configs.build import build_optimize
 from configs.loader import load_study
-from formation import Orbit, ground_track_circular
+from formation import Orbit, ground_track_circular, space_circular
 from insar import (
     BaselineDecorrelation,
     ErrorBudget,
@@ -20,8 +20,10 @@ from insar import (
     Radar,
     Scene,
     SharedBy,
+    Weighting,
     one_transmitter,
 )
+from insar.baselines import scene_critical_baseline
 from optimize import Constraints, DesignSpace, GeneticSettings, Problem, SearchSettings
 
 MEAN_MOTION = Orbit.circular(altitude=514e3, inclination=np.deg2rad(97.44)).mean_motion
@@ -167,6 +169,81 @@ def landscapes(*, counts: tuple[int, ...] = (3, 5, 8), quick: bool = False) -> l
             for name, pair in problems.items()
         ]
     return made
+
+
+def random_study(number: int) -> Landscape:
+    """A problem as a study might describe it; the same number gives the same one.
+
+    Parameters
+    ----------
+    number : counts the problems; the satellites go through 2 to 8.
+    """
+    rng = np.random.default_rng([6, number])
+    satellites = 2 + number % 7
+    band, wavelength, resolution = (("X", 0.031, 3.0), ("C", 0.056, 5.0), ("L", 0.236, 8.0))[
+        rng.integers(3)
+    ]
+    altitude = rng.uniform(400e3, 800e3)
+    orbit = Orbit.circular(altitude=altitude, inclination=np.deg2rad(97.5))
+    scene = Scene.broadside_strip(
+        times=np.linspace(0.0, 10.0, 8),
+        look_angle=np.deg2rad(rng.uniform(20.0, 40.0)),
+        altitude=altitude,
+        earth_radius=6_378_137.0,
+    )
+    radar = Radar(
+        wavelength=wavelength,
+        slant_range_resolution=resolution,
+        snr=10.0 ** rng.uniform(0.7, 1.5),
+        looks=float(rng.integers(4, 65)),
+        images=one_transmitter(satellites),
+        azimuth_resolution=resolution if rng.random() < 0.5 else None,
+    )
+    pairs = rng.random() < 0.25
+    decorrelation = (
+        BaselineDecorrelation.FILTERED,
+        BaselineDecorrelation.FILTERED,
+        BaselineDecorrelation.UNFILTERED,
+        BaselineDecorrelation.NONE,
+    )[rng.integers(4)]
+    errors = ErrorBudget(
+        position=ErrorSource(10.0 ** rng.uniform(-3.0, -2.0), SharedBy.SATELLITE),
+        azimuth=ErrorSource(rng.uniform(0.5, 3.0) / float(scene.slant_range[0]), SharedBy.ALL),
+        range=ErrorSource(0.01, SharedBy.ALL),
+        weighting=Weighting.PAIRS if pairs else Weighting.JOINT,
+        baseline_decorrelation=decorrelation,
+    )
+    # Of satellites that are still allowed to turn, half of the smallest critical baseline.
+    radius = min(0.5 * float(scene_critical_baseline(scene, radar).min()), 4000.0)
+    prior = rng.uniform(2.0, 10.0) if rng.random() < 0.6 else None
+    family, name = ((ground_track_circular, "ground track"), (space_circular, "space"))[
+        rng.integers(2)
+    ]
+    problem = Problem(
+        mean_motion=orbit.mean_motion,
+        scene=scene,
+        radar=radar,
+        errors=errors,
+        constraints=Constraints(
+            max_radius=radius,
+            min_separation=min(100.0, 0.5 * radius / satellites),
+            min_unwrapping_probability=None if prior is None else 0.99,
+            prior_height_std=prior,
+        ),
+    )
+    space = DesignSpace(
+        names=tuple(f"sat {index + 1}" for index in range(satellites)),
+        family=family,
+        mean_motion=orbit.mean_motion,
+        max_offset=radius / 2.0,
+        max_rate=radius / 2.0 * orbit.mean_motion,
+        signs=(1, -1),
+    )
+    words = (
+        f"{satellites} satellites, {name}, {band} band, {errors.weighting.value}, "
+        f"{decorrelation.value}, prior {'none' if prior is None else f'{prior:.1f} m'}"
+    )
+    return Landscape(words, problem, space, SearchSettings())
 
 
 def _radar(satellites: int, *, looks: float) -> Radar:

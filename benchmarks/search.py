@@ -1,6 +1,7 @@
 """Our search against its peers at equal evaluations, on three landscapes of 3, 5 and 8 satellites.
 
-    python benchmarks/search.py [--seeds 50] [--satellites 3,5,8] [--only WORD] [--quick]
+    python benchmarks/search.py [--seeds 50] [--satellites 3,5,8] [--only WORD]
+        [--compiled] [--quick]
 
 For each seed our `search` runs first; each peer then gets as many evaluations as it used with that
 seed, differences for gradients included, of the same evaluator, in the same process. The peers
@@ -36,12 +37,14 @@ from time import process_time
 from typing import NamedTuple
 
 import numpy as np
-from metering import BudgetSpentError, Meter, metered
+from metering import ArrayEvaluator, BudgetSpentError, Meter, MeteredEvaluator
 from peers import PEERS, Task, our_search
 from problems import Landscape, landscapes
 
 from optimize import search
 from optimize.certificate import certify
+from optimize.kernel import compiled_evaluator
+from optimize.search import Evaluator
 
 TOLERANCE = 1e-4
 """Distance from the optimum, in parts of it, that counts as reached."""
@@ -81,27 +84,40 @@ class Summary(NamedTuple):
     share: float
 
 
-def run(peer: Callable[[Task], None], landscape: Landscape, *, seed: int, budget: float) -> Run:
+def run(
+    peer: Callable[[Task], None],
+    landscape: Landscape,
+    evaluator: Evaluator,
+    *,
+    seed: int,
+    budget: float = np.inf,
+) -> Run:
     """One search, until it ends or its budget is spent."""
+    problem, space = landscape.problem, landscape.space
     meter = Meter(budget=budget)
-    problem, space = metered(landscape.problem, landscape.space, meter)
     start = process_time()
     with suppress(BudgetSpentError):
-        peer(Task(problem, space, landscape.settings, seed))
+        metered = MeteredEvaluator(evaluator, meter)
+        peer(Task(problem, space, metered, landscape.settings, seed))
     seconds = process_time() - start
     return Run(meter, seconds, seconds - meter.seconds)
 
 
-def compare(landscape: Landscape, *, seeds: int) -> None:
+def compare(landscape: Landscape, *, seeds: int, compiled: bool) -> None:
     """All peers on one landscape, seed by seed, so that a busy machine slows them alike."""
+    arrays = ArrayEvaluator(landscape.problem, landscape.space)
+    loops = compiled_evaluator(landscape.problem, landscape.space) if compiled else None
+    evaluator = arrays if loops is None else loops
     runs: dict[str, list[Run]] = {name: [] for name in ("our search", *PEERS)}
     for seed in range(seeds):
-        ours = run(our_search, landscape, seed=seed, budget=np.inf)
+        ours = run(our_search, landscape, evaluator, seed=seed)
         runs["our search"].append(ours)
         for name, peer in PEERS.items():
-            runs[name].append(run(peer, landscape, seed=seed, budget=ours.evaluations))
+            one = run(peer, landscape, evaluator, seed=seed, budget=ours.evaluations)
+            runs[name].append(one)
     best_known = min(one.best for many in runs.values() for one in many)
-    print(f"\n{landscape.name}: {_optimum(landscape, best_known)}, {seeds} seeds")
+    form = "arrays" if loops is None else "compiled loops"
+    print(f"\n{landscape.name}: best known {best_known:.6f} m, {seeds} seeds, {form}")
     print(
         f"{'':34} {'median m':>9} {'worst m':>9} {'≤ 1e-4':>7} {'s/success':>9} {'/ ours':>7}"
         f" {'feasible':>8} {'evals':>7} {'time s':>7} {'/ ours':>6}"
@@ -110,10 +126,11 @@ def compare(landscape: Landscape, *, seeds: int) -> None:
     reference = _summary(runs["our search"], best_known)
     for name, many in runs.items():
         print(f"{name:34} {_row(many, best_known, reference)}", flush=True)
+    print(_optimum(landscape, best_known), flush=True)
 
 
 def _optimum(landscape: Landscape, best_known: float) -> str:
-    """The best known, and how far it is from the best possible at most."""
+    """How far the best known is from the best possible at most."""
     found = search(
         landscape.problem,
         landscape.space,
@@ -122,10 +139,10 @@ def _optimum(landscape: Landscape, best_known: float) -> str:
     )
     bound = certify(landscape.problem, landscape.space, design=found.design).lower_bound
     if not np.isfinite(bound):
-        return f"best known {best_known:.6f} m, no certificate"
+        return "no certificate"
     gap = best_known / bound - 1.0
-    word = "certified" if gap <= TOLERANCE else "best known"
-    return f"{word} {best_known:.6f} m, no formation below {bound:.6f} m (gap {gap:.1e})"
+    word = "certified" if gap <= TOLERANCE else "not certified"
+    return f"{word}: no formation below {bound:.6f} m (gap {gap:.1e})"
 
 
 def _summary(many: list[Run], optimum: float) -> Summary:
@@ -158,12 +175,16 @@ def main() -> None:
     parser.add_argument("--seeds", type=int, default=50, help="runs of each peer (default 50)")
     parser.add_argument("--satellites", default="3,5,8", help="numbers of satellites, by commas")
     parser.add_argument("--only", default="", help="landscapes whose name holds this word")
+    parser.add_argument(
+        "--compiled", action="store_true", help="compiled loops score, where they know the problem"
+    )
     parser.add_argument("--quick", action="store_true", help="one short run each, 3 satellites")
     options = parser.parse_args()
     counts = (3,) if options.quick else tuple(map(int, options.satellites.split(",")))
     for landscape in landscapes(counts=counts, quick=options.quick):
         if options.only in landscape.name:
-            compare(landscape, seeds=1 if options.quick else options.seeds)
+            seeds = 1 if options.quick else options.seeds
+            compare(landscape, seeds=seeds, compiled=options.compiled)
 
 
 if __name__ == "__main__":

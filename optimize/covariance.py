@@ -10,8 +10,8 @@ import numpy as np
 from deap import cma
 from numpy.typing import NDArray
 
-from .genetic import COLLAPSED, Individual
-from .islands import SearchMethod
+from .genetic import Individual
+from .islands import COLLAPSED, SearchMethod, own_seed
 from .problem import Evaluation
 
 Array = NDArray[np.float64]
@@ -56,7 +56,7 @@ class CovarianceSettings(NamedTuple):
         mean = rng.uniform(-_START_RADIUS, _START_RADIUS, size=lower.size)
         if start is not None and len(start):
             mean = np.clip((start[0] - _middle(lower, upper)) / _half(lower, upper), -1.0, 1.0)
-        stream = np.random.default_rng(int(rng.integers(2**63)))
+        stream = np.random.default_rng(own_seed(rng))
         strategy = cma.Strategy(mean, self.step, lambda_=self.population)
         return CovariancePopulation(lower, upper, strategy, stream, first=mean)
 

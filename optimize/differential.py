@@ -12,8 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .genetic import COLLAPSED
-from .islands import SearchMethod
+from .islands import COLLAPSED, SearchMethod, first_designs, own_seed
 from .problem import Evaluation
 
 Array = NDArray[np.float64]
@@ -51,11 +50,8 @@ class DifferentialSettings(NamedTuple):
         rng : draws the first designs and seeds the population's own stream; not kept.
         start : (P0, D) — designs that join the first ones, within the box.
         """
-        first = rng.uniform(lower, upper, size=(self.population, lower.size))
-        if start is not None:
-            known = np.clip(start[: self.population], lower, upper)
-            first[: len(known)] = known
-        stream = np.random.default_rng(int(rng.integers(2**63)))
+        first = first_designs(rng, self.population, lower=lower, upper=upper, start=start)
+        stream = np.random.default_rng(own_seed(rng))
         return DifferentialPopulation(self, lower, upper, first, None, stream)
 
     def restore(

@@ -12,13 +12,10 @@ import numpy as np
 from deap import base, tools
 from numpy.typing import NDArray
 
-from .islands import SearchMethod
+from .islands import COLLAPSED, SearchMethod, first_designs, own_seed
 from .problem import Evaluation
 
 Array = NDArray[np.float64]
-
-COLLAPSED = 1e-3
-"""Extent of a population, in parts of the box, at which it finds nothing new."""
 
 
 class GeneticSettings(NamedTuple):
@@ -60,11 +57,8 @@ class GeneticSettings(NamedTuple):
         rng : draws the first designs and seeds the population's own stream; not kept.
         start : (P0, D) — designs that join the first ones, within the box.
         """
-        first = rng.uniform(lower, upper, size=(self.population, lower.size))
-        if start is not None:
-            known = np.clip(start[: self.population], lower, upper)
-            first[: len(known)] = known
-        source = random.Random(int(rng.integers(2**63)))  # noqa: S311 - DEAP draws from it
+        first = first_designs(rng, self.population, lower=lower, upper=upper, start=start)
+        source = random.Random(own_seed(rng))  # noqa: S311 - DEAP draws from it
         children = [Individual(genes) for genes in first.tolist()]
         return GeneticPopulation(self, lower, upper, [], source, children)
 

@@ -19,6 +19,10 @@ from .problem import Evaluation
 Array = NDArray[np.float64]
 
 
+COLLAPSED = 1e-3
+"""Extent of a population, in parts of the box, at which it finds nothing new."""
+
+
 class SearchMethod(StrEnum):
     """Which algorithm improves the populations."""
 
@@ -108,6 +112,39 @@ class Algorithm(Protocol):
         lower, upper : (D,) — the box.
         """
         ...
+
+
+def first_designs(
+    rng: np.random.Generator, count: int, *, lower: Array, upper: Array, start: Array | None
+) -> Array:
+    """Designs of a population that begins anywhere in the box.
+
+    Parameters
+    ----------
+    rng : draws them.
+    count : how many.
+    lower, upper : (D,) — the box.
+    start : (P0, D) — designs that take the places of the first ones, moved into the box.
+
+    Returns
+    -------
+    (count, D)
+    """
+    designs = rng.uniform(lower, upper, size=(count, lower.size))
+    if start is not None:
+        known = np.clip(start[:count], lower, upper)
+        designs[: len(known)] = known
+    return designs
+
+
+def own_seed(rng: np.random.Generator) -> int:
+    """Seed of the stream that a population keeps for itself.
+
+    Parameters
+    ----------
+    rng : draws it.
+    """
+    return int(rng.integers(2**63))
 
 
 class IslandSettings(NamedTuple):

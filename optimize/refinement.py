@@ -25,11 +25,11 @@ _STEP = 1e-6
 _TOLERANCE = 1e-10
 """Change of the logarithm of the error that ends a descent: what the differences resolve."""
 
-_SAFE_MARGIN = 1e-6
+_SAFE_MARGIN = 1e-8
 """Margin that the quadratic programs keep, so that their last digits stay feasible."""
 
-_FINE_MARGIN = 1e-8
-"""The same of a polish, for what a descent leaves on the table."""
+_ROUGH_MARGIN = 1e-6
+"""The same of a rough descent: what the kinks of the limits leave uncertain."""
 
 _PROGRESS = 1e-6
 """Change of the logarithm of the error, from one quadratic program to the next, that is none."""
@@ -39,6 +39,10 @@ _NEARLY_KEPT = 1e-5
 
 _PATIENCE = 8
 """Quadratic programs without progress after which a descent ends, feasible or not."""
+
+_LAST_HOPE = 25
+"""Quadratic programs after which a descent ends that found nothing feasible, nor a hundredth less
+violation."""
 
 
 class Refinement(NamedTuple):
@@ -62,7 +66,7 @@ def refine(
     free: int,
     differentiate: Differentiate | None = None,
     max_iterations: int = 100,
-    polish: bool = False,
+    rough: bool = False,
 ) -> Refinement:
     """Descend from a design to a local optimum within the constraints.
 
@@ -75,7 +79,8 @@ def refine(
     differentiate : the derivatives in closed form; where it gives None, and without it, central
         differences are taken.
     max_iterations : of the quadratic programs.
-    polish : whether the start is a refined design, whose limits are now to be used up.
+    rough : whether limits may be left with a millionth to spare, which is quicker: the best of many
+        rough descents is refined again.
 
     Returns
     -------
@@ -94,7 +99,7 @@ def refine(
     programs make no progress.
     """
     descent = _Descent(score, start, upper, free, differentiate)
-    descent.safe_margin = _FINE_MARGIN if polish else _SAFE_MARGIN
+    descent.safe_margin = _ROUGH_MARGIN if rough else _SAFE_MARGIN
     interrupted = False
     try:
         minimize(
@@ -137,6 +142,8 @@ class _Descent:
         self.safe_margin = _SAFE_MARGIN
         self._accepted = math.inf
         self._idle = 0
+        self._landmark = math.inf
+        self._since = 0
 
     def accept(self, point: Array) -> None:
         """Take the outcome of a quadratic program; end the descent if they make no progress."""
@@ -147,7 +154,11 @@ class _Descent:
         self._accepted = self._value
         violation, objective = self._best
         reached = violation == 0.0 and math.log(objective) < self._value + _PROGRESS
-        if self._idle >= (2 if reached else _PATIENCE):
+        if violation == 0.0 or violation < 0.99 * self._landmark:
+            self._landmark, self._since = violation, 0
+        else:
+            self._since += 1
+        if self._idle >= (2 if reached else _PATIENCE) or self._since >= _LAST_HOPE:
             raise _EndOfDescentError
 
     def constraints(self) -> tuple[dict[str, object], ...]:

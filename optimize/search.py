@@ -10,7 +10,7 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,7 +19,7 @@ from .design_space import DesignSpace
 from .genetic import GeneticSettings
 from .gradient import DesignSlopes, design_slopes
 from .islands import Algorithm, Generation, IslandSettings, SearchMethod, generations
-from .kernel import CompiledEvaluator, compiled_evaluator
+from .kernel import compiled_evaluator
 from .problem import Evaluation, Problem
 from .progress import Candidate, Forgetful, GenerationRecord, Keeper, Step
 from .refinement import refine
@@ -34,11 +34,35 @@ end in the same optimum, and the evaluations of all but one are wasted (docs/per
 _CLOSED_FORM_FROM = 6
 """Satellites from which derivatives in closed form take less time than a batch of differences."""
 
+_CLOSED_FORM_BEYOND_LOOPS_FROM = 12
+"""The same where compiled loops score the batch."""
 
 _COMPILED_FROM = 2000
 """Formations of the populations from which compiled loops earn back the half second that they take
 to load (docs/performance.md). Whether they are compiled already must not matter: their results
 differ from those of the arrays in the last digits."""
+
+
+class Evaluator(Protocol):
+    """Scores designs; the arrays of `Problem` do, and the compiled loops."""
+
+    def evaluate(self, designs: Array) -> Evaluation:
+        """Score designs.
+
+        Parameters
+        ----------
+        designs : (P, D) — design vectors.
+        """
+        ...
+
+    def objectives_and_margins(self, designs: Array) -> tuple[Array, Array]:
+        """Height errors (P,) [m] and the margins of all limited items (P, items) of designs.
+
+        Parameters
+        ----------
+        designs : (P, D) — design vectors.
+        """
+        ...
 
 
 class SearchSettings(NamedTuple):
@@ -107,6 +131,7 @@ def search(
     on_generation: Callable[[GenerationRecord], None] | None = None,
     should_stop: Callable[[], bool] = lambda: False,
     keeper: Keeper | None = None,
+    evaluator: Evaluator | None = None,
 ) -> SearchResult:
     """Search the design space for the smallest region height error within the limits.
 
@@ -123,17 +148,19 @@ def search(
     keeper : keeps every generation and every refined candidate; where it holds those of an earlier
         run with the same arguments, the search goes on after them, to the same result. None keeps
         nothing.
+    evaluator : scores the designs; None: the arrays, or compiled loops where they are known for the
+        problem and the search is long.
 
     Returns
     -------
     SearchResult — never worse than a feasible `start` within the box. Stopped by `should_stop` or
     by a KeyboardInterrupt, it is the best so far, marked `interrupted`.
     """
-    run = _Search(problem, space, on_generation, should_stop, keeper or Forgetful())
+    run = _Search(problem, space, on_generation, should_stop, keeper or Forgetful(), evaluator)
     algorithm = settings.algorithm
     length = algorithm.population * algorithm.generations * settings.islands.number
-    if length >= _COMPILED_FROM:
-        run.compiled = compiled_evaluator(problem, space)
+    if evaluator is None and length >= _COMPILED_FROM:
+        run.evaluator = compiled_evaluator(problem, space)
     state, refined = run.restore()
     interrupted = False
     try:
@@ -166,18 +193,19 @@ class _Search:
     on_generation: Callable[[GenerationRecord], None] | None
     should_stop: Callable[[], bool]
     keeper: Keeper
+    evaluator: Evaluator | None = None
     evaluations: int = 0
     history: list[GenerationRecord] = field(default_factory=list)
     candidates: list[Candidate] = field(default_factory=list)
     population_objective: float = math.inf
     refined_objective: float = math.inf
-    compiled: CompiledEvaluator | None = None
     _best: Candidate | None = None
     _polished: Candidate | None = None
 
     @cached_property
     def slopes(self) -> Callable[[Array], DesignSlopes | None]:
-        if self.space.satellites < (_CLOSED_FORM_FROM if self.compiled is None else 12):
+        first = _CLOSED_FORM_FROM if self.evaluator is None else _CLOSED_FORM_BEYOND_LOOPS_FROM
+        if self.space.satellites < first:
             return lambda _design: None
         return design_slopes(self.problem, self.space)
 
@@ -191,8 +219,8 @@ class _Search:
 
     def evaluate(self, designs: Array) -> Evaluation:
         self.evaluations += len(designs)
-        if self.compiled is not None:
-            return self.compiled.evaluate(designs)
+        if self.evaluator is not None:
+            return self.evaluator.evaluate(designs)
         return self.problem.evaluate(self.space.states(designs))
 
     def restore(self) -> tuple[dict[str, Any] | None, list[Step]]:
@@ -265,7 +293,7 @@ class _Search:
         mirrored = self.space.mirrored(self._best[2])
         if mirrored is not None and self._refine(mirrored, next(known, None)):
             return True
-        interrupted = self._refine(self._best[2], next(known, None), polish=True)
+        interrupted = self._refine(self._best[2], next(known, None), rough=False)
         self._polished = self._best
         return interrupted
 
@@ -275,7 +303,7 @@ class _Search:
             return np.empty((0, self.space.dimension))
         return structured_designs(self.problem, self.space, count=count, evaluate=self.evaluate)
 
-    def _refine(self, start: Array, known: Step | None, *, polish: bool = False) -> bool:
+    def _refine(self, start: Array, known: Step | None, *, rough: bool = True) -> bool:
         """Refine one design, unless its outcome is known; return whether that was interrupted."""
         if known is not None:
             self._take(known)
@@ -286,7 +314,7 @@ class _Search:
             upper=self.space.upper,
             free=2 * self.space.satellites,
             differentiate=self._differentiate,
-            polish=polish,
+            rough=rough,
         )
         evaluation = self.evaluate(outcome.design[None])
         violation, objective = evaluation.total_violation, evaluation.objectives
@@ -317,8 +345,8 @@ class _Search:
         if self.should_stop():
             raise KeyboardInterrupt
         self.evaluations += len(designs)
-        if self.compiled is not None:
-            return self.compiled.objectives_and_margins(designs)
+        if self.evaluator is not None:
+            return self.evaluator.objectives_and_margins(designs)
         objectives, margins = self.problem.objectives_and_margins(self.space.states(designs))
         return objectives, np.concatenate([np.empty((len(designs), 0)), *margins], axis=-1)
 

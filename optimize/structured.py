@@ -22,13 +22,13 @@ from .projection import plane_radius, projection
 
 Array = NDArray[np.float64]
 
-_ANGLES = 180
+_ANGLES = 90
 """Orientations of a dumbbell over half a turn; turned by the other half it is the same."""
 
 _RATIOS = (1.0, 1.5, 2.2, 3.2, 4.5, 7.0)
 """Ratios of one gap of a ladder to the next."""
 
-_LENGTHS = 32
+_LENGTHS = 16
 """Lengths of a ladder, up to the diameter of the plane."""
 
 _SPARE = 1.0 + 1e-6
@@ -87,7 +87,7 @@ def dumbbells(count: int, *, radius: float, separation: float) -> Iterator[Array
 
     Yields
     ------
-    (180, N, 2) — points of the plane, for each split that fits, the even one first.
+    (90, N, 2) — points of the plane, for each split that fits, the even one first.
     """
     turn = np.linspace(0.0, np.pi, _ANGLES, endpoint=False)[:, None]
     step = 2.0 * np.arcsin(min(1.0, 0.5 * separation * _SPARE / radius))
