@@ -3,19 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from typing import NamedTuple, TypeVar
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from formation import (
-    CircularFamily,
-    Orbit,
-    equally_spaced,
-    ground_track_circular,
-    space_circular,
-)
+from formation import Orbit, equally_spaced
 from insar.observe import Observation
 from insar.observe.agile.staring import StaringScene
 from optimize import (
@@ -36,50 +29,23 @@ from optimize.islands import Algorithm
 
 from .base import Block
 from .domain import build_problem, build_refutation
-from .formations import ComparedFormation, EvaluatedFormation, Family, RadialStart, Satellite, Sign
+from .flying import (
+    FAMILIES,
+    SIGNS,
+    NamedStates,
+    compared_formations,
+    evaluated_formation,
+    flown_formations,
+    in_order,
+)
+from .formations import Sign
 from .limits import SearchBlock
-from .messages import KeyPath
 from .mission_claims import corners, with_value
 from .observing import View, build_view
-from .placing import NamedPositions, build_claims, build_positions
-from .simulate_study import FlownFormation
-from .steered import SteeringSetup, build_steering
+from .placing import NamedPositions, build_claims
 from .studies import EvaluateStudy, OptimizeStudy
 
-__all__ = [
-    "FAMILIES",
-    "EvaluateSetup",
-    "NamedStates",
-    "OptimizeSetup",
-    "SteeringSetup",
-    "build_evaluate",
-    "build_optimize",
-    "build_steering",
-]
-
 Array = NDArray[np.float64]
-
-FAMILIES: dict[Family, CircularFamily] = {
-    "ground_track_circular": ground_track_circular,
-    "space_circular": space_circular,
-}
-_Member = TypeVar("_Member", RadialStart, Satellite)
-_SIGNS = {"positive": (1,), "negative": (-1,), "either": (1, -1)}
-
-
-class NamedStates(NamedTuple):
-    """A formation with what a report calls it.
-
-    Attributes
-    ----------
-    label : what it is called.
-    names : name of each satellite.
-    states : (N, 6) — RTN states at t = 0 [m, m/s].
-    """
-
-    label: str
-    names: tuple[str, ...]
-    states: Array
 
 
 class OptimizeSetup(NamedTuple):
@@ -173,7 +139,7 @@ def build_optimize(study: OptimizeStudy) -> OptimizeSetup:
         mean_motion=n,
         max_offset=amplitude if offset is None else offset,
         max_rate=amplitude * n if rate is None else rate,
-        signs=_SIGNS[formation.cross_track_sign],
+        signs=SIGNS[formation.cross_track_sign],
     )
     largest = 2.0 * min(amplitude, space.max_offset, space.max_rate / n)
     design = None
@@ -181,7 +147,7 @@ def build_optimize(study: OptimizeStudy) -> OptimizeSetup:
         z0, zdot0 = equally_spaced(len(names), radius=largest, mean_motion=n)
         initial = space.encode(z0, zdot0)
     else:
-        members = _in_order(formation.initial, names)
+        members = in_order(formation.initial, names)
         initial = space.encode([m.z0_m for m in members], [m.zdot0_m_s for m in members])
         design = initial if bool(np.all(np.abs(initial) <= space.upper)) else None
     sign: Sign = "negative" if formation.cross_track_sign == "negative" else "positive"
@@ -191,7 +157,7 @@ def build_optimize(study: OptimizeStudy) -> OptimizeSetup:
         settings=_settings(study.search),
         initial_states=space.states(initial),
         initial_design=design,
-        compare=_flown(study.compare, names, problem, family=formation.family, sign=sign),
+        compare=flown_formations(study.compare, names, problem, family=formation.family, sign=sign),
         refutation=build_refutation(study, problem),
         certificate=None
         if study.certificate is None
@@ -235,127 +201,14 @@ def _build_evaluate(study: EvaluateStudy, view: View) -> EvaluateSetup:
     return EvaluateSetup(
         problem=problem,
         names=names,
-        formation=_evaluated(formation, names, problem),
-        compare=_compare(study.compare, names, problem, family=family, sign=sign),
+        formation=evaluated_formation(formation, names, problem),
+        compare=compared_formations(study.compare, names, problem, family=family, sign=sign),
         refutation=build_refutation(study, problem),
         critical_baseline=critical,
         dem=dem,
         orbit=view.orbit,
         observation=view.observation,
     )
-
-
-def _evaluated(
-    formation: EvaluatedFormation, names: tuple[str, ...], problem: Problem
-) -> NamedStates | tuple[NamedPositions, ...]:
-    """The formation of a study of kind `evaluate`."""
-    at: KeyPath = ("formation",)
-    if formation.acquisitions is not None:
-        return tuple(
-            NamedPositions(
-                one.label,
-                names,
-                build_positions(one.table, names, problem, (*at, "acquisitions", index, "table")),
-            )
-            for index, one in enumerate(formation.acquisitions)
-        )
-    if formation.table is not None:
-        positions = build_positions(formation.table, names, problem, (*at, "table"))
-        return (NamedPositions("formation", names, positions),)
-    states = _states(
-        formation.satellites or (),
-        names,
-        problem.mean_motion,
-        family=formation.family,
-        sign=formation.cross_track_sign,
-    )
-    return NamedStates("formation", names, states)
-
-
-def _compare(
-    formations: Sequence[ComparedFormation],
-    names: tuple[str, ...],
-    problem: Problem,
-    *,
-    family: Family,
-    sign: Sign,
-) -> tuple[NamedStates | NamedPositions, ...]:
-    """Formations to compare with; family and sign are the study's, for those that give none."""
-    return tuple(
-        NamedStates(
-            formation.label,
-            names,
-            _states(
-                formation.satellites or (),
-                names,
-                problem.mean_motion,
-                family=formation.family or family,
-                sign=formation.cross_track_sign or sign,
-            ),
-        )
-        if formation.table is None
-        else NamedPositions(
-            formation.label,
-            names,
-            build_positions(formation.table, names, problem, ("compare", index, "table")),
-        )
-        for index, formation in enumerate(formations)
-    )
-
-
-def _flown(
-    formations: Sequence[ComparedFormation],
-    names: tuple[str, ...],
-    problem: Problem,
-    *,
-    family: Family,
-    sign: Sign,
-) -> tuple[NamedStates, ...]:
-    """The same where all are on orbits."""
-    found = _compare(formations, names, problem, family=family, sign=sign)
-    return tuple(one for one in found if isinstance(one, NamedStates))
-
-
-def formation_states(formation: FlownFormation, names: Sequence[str], mean_motion: float) -> Array:
-    """States of a given formation, (N, 6) RTN at t = 0 [m, m/s].
-
-    Parameters
-    ----------
-    formation : of the study.
-    names : name of each satellite.
-    mean_motion : scalar — of the reference orbit [rad/s].
-    """
-    return _states(
-        formation.satellites,
-        names,
-        mean_motion,
-        family=formation.family,
-        sign=formation.cross_track_sign,
-    )
-
-
-def _states(
-    satellites: Sequence[Satellite],
-    names: Sequence[str],
-    mean_motion: float,
-    *,
-    family: Family,
-    sign: Sign,
-) -> Array:
-    generate, (k, *_) = FAMILIES[family], _SIGNS[sign]
-    rows = [
-        generate(*satellite.radial_start, mean_motion=mean_motion, sign=k)
-        if satellite.state is None
-        else np.array(satellite.state)
-        for satellite in _in_order(satellites, names)
-    ]
-    return np.array(rows)
-
-
-def _in_order(members: Sequence[_Member], names: Sequence[str]) -> list[_Member]:
-    """The members in the order of the study's satellites; unnamed ones are in it already."""
-    by_name = {member.name: member for member in members}
-    return list(members) if None in by_name else [by_name[name] for name in names]
 
 
 def _settings(block: SearchBlock) -> SearchSettings:

@@ -15,8 +15,8 @@ from insar.simulation import TerrainRequest, natural_errors
 from insar.simulation.synthesis import unsupported_scales
 from insar.terrain import TerrainView, view_terrain
 
-from .build import formation_states
 from .domain import build_instrument
+from .flying import formation_states
 from .messages import BuildError
 from .simulate_study import SimulateStudy
 from .terrain_files import build_terrain

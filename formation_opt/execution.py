@@ -109,7 +109,6 @@ def _execute(
     should_stop: Callable[[], bool],
     resume: bool,
 ) -> Outcome:
-    study = loaded.study
     started, clock = datetime.now(UTC), time.perf_counter()
     checkpoints: list[Checkpoint] = []
 
@@ -119,37 +118,16 @@ def _execute(
 
     with terminal.progress(seed=seed, quiet=quiet, should_stop=should_stop) as options:
         try:
-            outcome = KINDS[study.kind].run(study, setup, replace(options, keeper=keeper))
-        except (
-            BuildError
-        ) as error:  # an ephemeris with a gap, found when it is asked for its states
+            outcome = KINDS[loaded.study.kind].run(
+                loaded.study, setup, replace(options, keeper=keeper)
+            )
+        except BuildError as error:  # an ephemeris with a gap, found when asked for its states
             raise loaded.located(error) from None
-    info = StudyInfo(
-        name=study.name,
-        kind=study.kind,
-        description=study.description,
-        source_text=loaded.source_text,
-        config_sha256=loaded.sha256,
-        effective=effective_text(study),
-        orbit_altitude=None if outcome.orbit is None else outcome.orbit.altitude,
-        inclination=None if outcome.orbit is None else outcome.orbit.inclination,
-        observation=outcome.observation,
-        inputs=tuple((file.name, file.sha256) for file in loaded.files),
-        inferred=study.inferred_inputs if isinstance(study, SourcedStudy) else (),
-    )
-    how = Provenance(
-        version=provenance.program(),
-        seed=outcome.seed,
-        python=provenance.python(),
-        platform=provenance.machine(),
-        packages=provenance.packages(),
-        started=started.isoformat(timespec="seconds"),
-        wall_s=time.perf_counter() - clock,
-        evaluations=outcome.evaluations,
-        command=command,
-    )
+    how = _provenance(outcome, command, started, seconds=time.perf_counter() - clock)
     try:
-        paths = write_report(outcome.result, study=info, provenance=how, out=out, formats=formats)
+        paths = write_report(
+            outcome.result, study=_info(loaded, outcome), provenance=how, out=out, formats=formats
+        )
     except OSError as error:
         raise OutputError(_unwritable(out, error)) from error
     if not outcome.interrupted:
@@ -158,6 +136,39 @@ def _execute(
     if not quiet:
         terminal.summary(outcome.summary, paths, seconds=time.perf_counter() - clock)
     return outcome
+
+
+def _info(loaded: LoadedStudy, outcome: Outcome) -> StudyInfo:
+    """What a report says of the study itself."""
+    study, orbit = loaded.study, outcome.orbit
+    return StudyInfo(
+        name=study.name,
+        kind=study.kind,
+        description=study.description,
+        source_text=loaded.source_text,
+        config_sha256=loaded.sha256,
+        effective=effective_text(study),
+        orbit_altitude=None if orbit is None else orbit.altitude,
+        inclination=None if orbit is None else orbit.inclination,
+        observation=outcome.observation,
+        inputs=tuple((file.name, file.sha256) for file in loaded.files),
+        inferred=study.inferred_inputs if isinstance(study, SourcedStudy) else (),
+    )
+
+
+def _provenance(outcome: Outcome, command: str, started: datetime, *, seconds: float) -> Provenance:
+    """What a report says of the run."""
+    return Provenance(
+        version=provenance.program(),
+        seed=outcome.seed,
+        python=provenance.python(),
+        platform=provenance.machine(),
+        packages=provenance.packages(),
+        started=started.isoformat(timespec="seconds"),
+        wall_s=seconds,
+        evaluations=outcome.evaluations,
+        command=command,
+    )
 
 
 def _identity(loaded: LoadedStudy, seed: int) -> Identity:

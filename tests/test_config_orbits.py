@@ -15,8 +15,9 @@ from hypothesis import strategies as st
 from pydantic import ValidationError
 
 from configs import BuildError, StudyError, effective_text, example_text, load_study
-from configs.build import build_evaluate, build_steering
+from configs.build import build_evaluate
 from configs.orbits import OrbitBlock, build_reference, build_trajectory
+from configs.steered import build_steering
 from formation import ElementKind, Ephemeris, KeplerianOrbit, Orbit, TwoLineOrbit
 from formation.timescales import DAY
 

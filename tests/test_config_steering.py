@@ -16,7 +16,7 @@ from configs import (
     example_text,
     load_study,
 )
-from configs.build import build_steering
+from configs.steered import build_steering
 from formation.constants import EARTH_EQUATORIAL_RADIUS
 from insar import LookSide, Relation, Verdict
 from insar.observe import (

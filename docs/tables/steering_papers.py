@@ -9,7 +9,7 @@ from functools import cache
 import numpy as np
 
 from configs import load_study
-from configs.build import SteeringSetup, build_steering
+from configs.steered import SteeringSetup, build_steering
 from insar import (
     LookSide,
 )

@@ -7,7 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from configs import EvaluateStudy
-from configs.build import EvaluateSetup, NamedStates
+from configs.build import EvaluateSetup
+from configs.flying import NamedStates
 from configs.placing import NamedPositions
 from configs.table_checks import COMBINED
 from insar import Claim, judged_range

@@ -44,31 +44,14 @@ def run(study: OptimizeStudy, setup: OptimizeSetup, options: Options) -> Outcome
         should_stop=options.should_stop,
         keeper=None if options.keeper is None else options.keeper(seed),
     )
-    names = setup.space.names
-    initial = assess(setup.problem, setup.initial_states, label="initial", names=names)
-    best = assess(setup.problem, setup.space.states(found.design), label="best", names=names)
-    compare = [
-        assess(setup.problem, states, label=label, names=members)
-        for label, members, states in setup.compare
-    ]
     best, initial, *compare = refuted(
         setup.problem,
-        [best, initial, *compare],
+        _assessed(setup, found),
         settings=setup.refutation,
         seed=refutation_seed(study, options, seed),
     )
     certificate, unproved = _certificate(setup, found)
-    notices = []
-    blocked = None if best.feasible else _blocking(best)
-    if blocked is not None and certificate is not None:
-        blocked = f"{blocked}{_proof(certificate)}"
-    if blocked is not None:
-        notices.append(f"No feasible formation was found: {blocked}")
-    if found.interrupted:
-        notices.append(
-            f"The search was interrupted after {found.evaluations} formations: this is the best so "
-            "far, not the best there is.",
-        )
+    blocked = _blocked(best, certificate)
     dem = dem_verdict(setup.problem, best.scene_positions, label=best.label, request=setup.dem)
     cautions = scene_cautions(setup.observation)
     result = OptimizeResult(
@@ -78,7 +61,7 @@ def run(study: OptimizeStudy, setup: OptimizeSetup, options: Options) -> Outcome
         best=best,
         compare=tuple(compare),
         search=found,
-        notices=tuple(notices),
+        notices=_notices(found, blocked),
         warnings=(*cautions, *findings(setup.problem, best)),
         dem=dem,
         certificate=certificate,
@@ -94,6 +77,38 @@ def run(study: OptimizeStudy, setup: OptimizeSetup, options: Options) -> Outcome
         blocked=blocked,
         interrupted=found.interrupted,
     )
+
+
+def _assessed(setup: OptimizeSetup, found: SearchResult) -> list[Assessment]:
+    """The best formation, the initial one, and those to compare with."""
+    named = (
+        ("best", setup.space.names, setup.space.states(found.design)),
+        ("initial", setup.space.names, setup.initial_states),
+        *setup.compare,
+    )
+    return [
+        assess(setup.problem, states, label=label, names=names) for label, names, states in named
+    ]
+
+
+def _notices(found: SearchResult, blocked: str | None) -> tuple[str, ...]:
+    """What stands before everything else in a report."""
+    notices = []
+    if blocked is not None:
+        notices.append(f"No feasible formation was found: {blocked}")
+    if found.interrupted:
+        notices.append(
+            f"The search was interrupted after {found.evaluations} formations: this is the best so "
+            "far, not the best there is.",
+        )
+    return tuple(notices)
+
+
+def _blocked(best: Assessment, certificate: Certificate | None) -> str | None:
+    """Why nothing feasible was found, with the proof where there is one; None if it was."""
+    if best.feasible:
+        return None
+    return _blocking(best) + ("" if certificate is None else _proof(certificate))
 
 
 def _certificate(setup: OptimizeSetup, found: SearchResult) -> tuple[Certificate | None, str]:
