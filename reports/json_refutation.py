@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from insar.simulation import Refutation, SegmentRefutation, Simulated
+from insar.simulation import Refutation, SegmentRefutation
 
+from .json_comparison import height_comparison, share_comparison
 from .json_numbers import Json, finite
 
 
@@ -25,29 +26,13 @@ def _segment(segment: SegmentRefutation) -> Json:
     return {
         "segment": segment.segment + 1,
         "verdict": str(segment.verdict),
-        "total": _height(segment.predicted_total, segment.right_cycles, segment.deviation),
-        "relative": _height(
-            segment.predicted_relative, segment.relative, segment.relative_deviation
-        ),
-        "wrong_cycles": {
-            "predicted": finite(segment.predicted_failure),
-            "simulated": finite(segment.wrong.value),
-            "sampling_error": finite(segment.wrong.sampling_error),
-            "deviation": finite(segment.wrong_deviation),
-        },
+        "total": height_comparison(segment.total),
+        "relative": height_comparison(segment.relative_error),
+        "wrong_cycles": share_comparison(segment.wrong_cycles),
         "unwrapped_rms_m": finite(segment.unwrapped.value),
         "most_likely_rms_m": finite(segment.most_likely.value),
         "two_thirds_within_m": finite(segment.two_thirds),
         "posterior_mean_rms_m": finite(segment.best.value),
         "gain_m": finite(segment.gain),
         "gain_bits": finite(segment.bits),
-    }
-
-
-def _height(predicted: float, simulated: Simulated, deviation: float) -> Json:
-    return {
-        "predicted_m": finite(predicted),
-        "simulated_m": finite(simulated.value),
-        "sampling_error_m": finite(simulated.sampling_error),
-        "deviation": finite(deviation),
     }

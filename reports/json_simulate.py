@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from insar.simulation import Comparison, TerrainSimulation
+from insar.simulation import TerrainSimulation
 
+from .json_comparison import height_comparison, share_comparison
 from .json_numbers import Json, finite, finite_list
 
 
@@ -31,14 +32,9 @@ def simulate_json(result: TerrainSimulation) -> Json:
             "acquisitions": len(result.offsets),
             "points": result.points,
             "prior_height_std_m": finite(request.prior_height_std),
-            "random": _height(result.random),
-            "total": _height(result.total),
-            "wrong_cycles": {
-                "predicted": finite(result.wrong.predicted),
-                "simulated": finite(result.wrong.simulated.value),
-                "sampling_error": finite(result.wrong.simulated.sampling_error),
-                "deviation": finite(result.wrong.deviation),
-            },
+            "random": height_comparison(result.random),
+            "total": height_comparison(result.total),
+            "wrong_cycles": share_comparison(result.wrong),
             "least_squares_rms_m": finite(result.least_squares),
             "most_likely_rms_m": finite(result.most_likely),
             "prior_rms_m": finite(result.prior),
@@ -46,13 +42,4 @@ def simulate_json(result: TerrainSimulation) -> Json:
             "departures": list(result.departures),
         },
         "warnings": [],
-    }
-
-
-def _height(comparison: Comparison) -> Json:
-    return {
-        "predicted_m": finite(comparison.predicted),
-        "simulated_m": finite(comparison.simulated.value),
-        "sampling_error_m": finite(comparison.simulated.sampling_error),
-        "deviation": finite(comparison.deviation),
     }

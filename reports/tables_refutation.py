@@ -46,19 +46,19 @@ def _compared(segment: SegmentRefutation) -> list[tuple[str, str, str, float]]:
             "total error, right cycles",
             meters(segment.predicted_total, 4),
             _plus_minus(segment.right_cycles),
-            segment.deviation,
+            segment.total.deviation,
         ),
         (
             "relative error, right cycles",
             meters(segment.predicted_relative, 4),
             _plus_minus(segment.relative),
-            segment.relative_deviation,
+            segment.relative_error.deviation,
         ),
         (
             "pixels with a wrong cycle",
             percent(segment.predicted_failure),
             f"{wrong[0]:.2f} ± {quantity(f'{wrong[1]:.2f}', '%')}",
-            segment.wrong_deviation,
+            segment.wrong_cycles.deviation,
         ),
     ]
 

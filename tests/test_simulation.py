@@ -337,7 +337,7 @@ def test_random_formations_agree_and_never_beat_the_bound(seed):
     low = 1.0 - 3.5 * segment.right_cycles.sampling_error / segment.right_cycles.value
     assert segment.right_cycles.value > segment.predicted_total * low
     assert segment.right_cycles.value < segment.predicted_total * (1.05 + 1.0 - low)
-    assert abs(segment.wrong_deviation) < 4.0
+    assert abs(segment.wrong_cycles.deviation) < 4.0
     # With the prior, no estimate is better than the bound with the prior.
     joint = 1.0 / math.sqrt(segment.predicted_total**-2 + prior**-2)
     best = segment.most_likely
@@ -353,7 +353,7 @@ def test_wrong_cycles_come_as_often_as_bootstrapping_predicts(baselines, prior):
         baselines, radar=radar_of(len(baselines), looks=32.0), prior=prior, samples=12_000
     )
     assert segment.predicted_failure > 0.005
-    assert abs(segment.wrong_deviation) < 4.0
+    assert abs(segment.wrong_cycles.deviation) < 4.0
     # What bootstrapping loses, maximum likelihood over all cycles wins back in part.
     assert segment.most_likely.value < 1.03 * segment.unwrapped.value
     assert segment.best.value < segment.most_likely.value * 1.01
@@ -434,7 +434,7 @@ def test_nature_keeps_a_natural_budget_and_mends_the_others():
 def test_images_without_a_common_band_measure_nothing():
     segment = simulated([0, 4000], radar=radar_of(2), samples=400)
     assert not math.isfinite(segment.predicted_total)
-    assert math.isnan(segment.deviation)
+    assert math.isnan(segment.total.deviation)
     assert segment.verdict is Verdict.MEASURES_NOTHING
 
 

@@ -5,17 +5,17 @@ them, and compares what comes out with what `insar.height_error` and `insar.unwr
 predict.
 """
 
+from .comparison import Comparison, Simulated
 from .end_to_end import simulate_terrain
 from .nature import Nature, natural_errors
 from .refutation import (
     MAX_IMAGES,
     Refutation,
     SegmentRefutation,
-    Simulated,
     Verdict,
     refute,
 )
-from .terrain_results import Comparison, TerrainMaps, TerrainRequest, TerrainSimulation
+from .terrain_results import TerrainMaps, TerrainRequest, TerrainSimulation
 
 __all__ = [
     "MAX_IMAGES",

@@ -9,11 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter
 
+from .comparison import Comparison, Simulated
 from .nature import natural_errors
-from .refutation import Simulated
 from .synthesis import at_range, draw_scene_errors, path_phase, unsupported_scales
 from .terrain_flight import Flown, Points, chunks, coherence_with_first, common_shift, fly
-from .terrain_results import Comparison, TerrainMaps, TerrainRequest, TerrainSimulation
+from .terrain_results import TerrainMaps, TerrainRequest, TerrainSimulation
 
 Array = NDArray[np.float64]
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -18,19 +17,11 @@ from ..radar import Radar
 from ..scene import Scene
 from ..unwrapping import unwrapping_ladder
 from .combining import combined_nature
+from .comparison import Comparison, Simulated, simulated_rms
 from .draws import Draw, draw
 from .nature import natural_errors, segment_nature
 
 Array = NDArray[np.float64]
-
-_TOLERANCE = 0.05
-"""Relative difference of a height error that no user of it would notice."""
-
-_WRONG_TOLERANCE = 0.01
-"""Difference of a share of wrong cycles that no user of it would notice."""
-
-_SIGNIFICANT = 3.0
-"""Sampling errors from which on a difference is not chance: 1 in 370."""
 
 _FULL_SAMPLES = 6
 """Images up to which every sample asked for is drawn."""
@@ -59,19 +50,6 @@ class Verdict(StrEnum):
     """The prediction holds for right cycles only, and too many are wrong."""
     MEASURES_NOTHING = "measures_nothing"
     """No estimator knows the height better than the prior did."""
-
-
-class Simulated(NamedTuple):
-    """A figure with its sampling error.
-
-    Attributes
-    ----------
-    value : as simulated.
-    sampling_error : its standard deviation, one run against another.
-    """
-
-    value: float
-    sampling_error: float
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -133,36 +111,30 @@ class SegmentRefutation:
         return max(0.0, math.log2(self.prior.value / self.best.value))
 
     @property
-    def deviation(self) -> float:
-        """Simulated less predicted total error with right cycles, in sampling errors."""
-        if not math.isfinite(self.predicted_total):
-            return math.nan
-        return (self.right_cycles.value - self.predicted_total) / self.right_cycles.sampling_error
+    def total(self) -> Comparison:
+        """Total error with right cycles, predicted and simulated [m]."""
+        return Comparison(self.predicted_total, self.right_cycles)
 
     @property
-    def relative_deviation(self) -> float:
-        """The same of the relative error."""
-        if not math.isfinite(self.predicted_relative):
-            return math.nan
-        return (self.relative.value - self.predicted_relative) / self.relative.sampling_error
+    def relative_error(self) -> Comparison:
+        """Relative error with right cycles, predicted and simulated [m]."""
+        return Comparison(self.predicted_relative, self.relative)
 
     @property
-    def wrong_deviation(self) -> float:
-        """Simulated less predicted share of wrong cycles, in sampling errors."""
-        return (self.wrong.value - self.predicted_failure) / self.wrong.sampling_error
+    def wrong_cycles(self) -> Comparison:
+        """Share of samples with a wrong cycle, predicted and simulated."""
+        return Comparison(self.predicted_failure, self.wrong)
 
     @property
     def verdict(self) -> Verdict:
         """What the simulation says."""
         if self.bits < _USELESS_BITS:
             return Verdict.MEASURES_NOTHING
-        height = _differs(
-            self.right_cycles, self.predicted_total, _TOLERANCE * self.predicted_total
-        )
-        relative = _differs(
-            self.relative, self.predicted_relative, _TOLERANCE * self.predicted_relative
-        )
-        if height or relative or _differs(self.wrong, self.predicted_failure, _WRONG_TOLERANCE):
+        if (
+            self.total.height_differs
+            or self.relative_error.height_differs
+            or self.wrong_cycles.share_differs
+        ):
             return Verdict.DISAGREES
         often = max(self.wrong.value, self.predicted_failure) > _TOO_OFTEN_WRONG
         return Verdict.OFTEN_WRONG if often else Verdict.AGREES
@@ -297,7 +269,7 @@ def _compared(
         predicted_relative=relative,
         predicted_failure=failure,
         right_cycles=_rms(drawn.right_cycles),
-        relative=_root_mean(within),
+        relative=simulated_rms(within),
         unwrapped=_rms(drawn.unwrapped),
         wrong=Simulated(
             float(wrong.mean()), max(float(wrong.std(ddof=1)) / math.sqrt(wrong.size), least)
@@ -313,19 +285,5 @@ def _compared(
 
 
 def _rms(errors: Array) -> Simulated:
-    """RMS of (draws, pixels), its sampling error from the spread between draws."""
-    return _root_mean((errors**2).mean(axis=-1))
-
-
-def _root_mean(squares: Array) -> Simulated:
-    value = math.sqrt(float(squares.mean()))
-    spread = float(squares.std(ddof=1)) / math.sqrt(squares.size)
-    return Simulated(value, spread / (2.0 * value) if value > 0.0 else 0.0)
-
-
-def _differs(simulated: Simulated, predicted: float, tolerance: float) -> bool:
-    """Whether a difference is neither chance nor too small to matter."""
-    if not math.isfinite(predicted):
-        return True
-    difference = abs(simulated.value - predicted)
-    return difference > max(_SIGNIFICANT * simulated.sampling_error, tolerance)
+    """RMS of (draws, pixels) [m]."""
+    return simulated_rms((errors**2).mean(axis=-1))

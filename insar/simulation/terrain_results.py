@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +11,7 @@ from numpy.typing import NDArray
 from ..errors import ErrorBudget
 from ..radar import Radar
 from ..terrain.view import Mask, TerrainView
-from .refutation import Simulated
+from .comparison import Comparison
 
 Array = NDArray[np.float64]
 RelativePositions = Callable[[Array], Array]
@@ -79,24 +78,6 @@ class TerrainMaps:
     likely_error: Array
     wrong: Mask
     clear: Mask
-
-
-class Comparison(NamedTuple):
-    """A predicted and a simulated figure over all points that are clear.
-
-    Attributes
-    ----------
-    predicted : by the error model of the study; RMS, or mean of a probability.
-    simulated : over all acquisitions, with its sampling error.
-    """
-
-    predicted: float
-    simulated: Simulated
-
-    @property
-    def deviation(self) -> float:
-        """Simulated less predicted, in sampling errors."""
-        return (self.simulated.value - self.predicted) / self.simulated.sampling_error
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -14,7 +14,7 @@ from insar.observe import Compensation, CompensationCurve
 
 from ..steering_words import effect_name
 from ..wording import fixed, plain
-from .steering import along_orbit, mark_orbit
+from .axes import along_orbit, mark_orbit
 from .style import BROKEN, INK, color, draw, name_series
 
 _SOUGHT = 95.0

@@ -8,16 +8,14 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 from numpy.typing import NDArray
 
 from insar.observe.agile.spotlight_results import AimError, SpotlightResult
 
 from ..reading_agile import AIM_ROUNDING
 from ..tables_steering import largest, least
-from ..wording import power_of_ten
-from .steering import thinned
-from .style import GRID, INK, MUTED, color, draw, name_series
+from .axes import drawn_values, rounding_axis, thinned
+from .style import INK, color, draw, name_series
 from .turning import TIME_LABEL
 
 Array = NDArray[np.float64]
@@ -75,26 +73,8 @@ def aim_figure(times: Array, error: AimError) -> bytes:
 
 
 def _aim_axis(axes: Axes) -> None:
-    """Logarithmic, with what is rounding shaded."""
-    values = np.concatenate([np.asarray(line.get_ydata(), dtype=float) for line in axes.lines])
-    high = np.fmax(largest(values), 10.0 * AIM_ROUNDING)
-    axes.set_yscale("log")
-    axes.set_ylim(_FLOOR / 3.0, 8.0 * high)
-    axes.yaxis.set_major_locator(LogLocator(numticks=9))
-    axes.yaxis.set_minor_formatter(NullFormatter())
-    axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: power_of_ten(value)))
-    axes.axhspan(1e-13, AIM_ROUNDING, color=GRID, alpha=0.55, linewidth=0.0, zorder=0.4)
-    axes.annotate(
-        "zero, within rounding",
-        (0.985, AIM_ROUNDING),
-        xycoords=("axes fraction", "data"),
-        xytext=(0, -2),
-        textcoords="offset points",
-        ha="right",
-        va="top",
-        fontsize=7.0,
-        color=MUTED,
-    )
+    high = 8.0 * np.fmax(largest(drawn_values(axes)), 10.0 * AIM_ROUNDING)
+    rounding_axis(axes, low=_FLOOR / 3.0, high=high, rounding=AIM_ROUNDING, ticks=9)
 
 
 def echo_figure(result: SpotlightResult) -> bytes:

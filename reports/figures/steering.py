@@ -9,7 +9,6 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.ticker import FuncFormatter, LogLocator, MultipleLocator, NullFormatter
 from numpy.typing import NDArray
 
 from insar.observe import CaseResult, Law, LawCurves
@@ -17,8 +16,8 @@ from insar.observe import CaseResult, Law, LawCurves
 from ..reading_steering import ROUNDING, exact_laws, laws_of, steers
 from ..steering_words import law_name
 from ..tables_steering import rate_of
-from ..wording import power_of_ten
-from .style import GRID, MUTED, color, draw, name_series, shortened
+from .axes import along_orbit, drawn_values, mark_orbit, rounding_axis, thinned
+from .style import MUTED, color, draw, name_series, shortened
 
 Array = NDArray[np.float64]
 
@@ -43,12 +42,6 @@ LAW_MARKERS = {
     Law.YAW_PITCH: "s",
     Law.PITCH_ROLL: "o",
 }
-
-_AT_THE_NODE = 1e-6
-"""Part of a revolution by which rounding may put a start at the node before it."""
-
-_MOST_POINTS = 721
-"""Points of a curve that are drawn."""
 
 _FLOOR = 1e-13
 """Doppler [Hz] at which a zero is drawn on a logarithmic axis."""
@@ -239,52 +232,11 @@ def _all(cases: Sequence[CaseResult]) -> list[LawCurves]:
     return [curves for case in cases for curves in case.curves]
 
 
-def thinned(count: int) -> NDArray[np.int_]:
-    """Indices of the samples that are drawn."""
-    return np.unique(np.linspace(0, count - 1, min(count, _MOST_POINTS)).round().astype(int))
-
-
-def along_orbit(argument_of_latitude: Array) -> Array:
-    """Argument of latitude [rad → °] that begins in the first revolution, not at 360°."""
-    degrees = np.rad2deg(argument_of_latitude)
-    return np.asarray(degrees - 360.0 * np.floor(degrees.min() / 360.0 + _AT_THE_NODE))
-
-
-def mark_orbit(axes: Axes, argument_of_latitude: Array, *, most: int = 6) -> None:
-    """Limits and ticks of an axis of the argument of latitude [rad → °], `most` intervals."""
-    degrees = along_orbit(argument_of_latitude)
-    low, high = float(degrees.min()), float(degrees.max())
-    axes.set_xlim(low, high)
-    quarters = max(np.ceil((high - low) / 90.0 / most), 1.0)
-    axes.xaxis.set_major_locator(MultipleLocator(90.0 * quarters))
-    axes.locator_params(axis="y", nbins=5)
-
-
 def _doppler_axis(axes: Axes) -> None:
-    """Logarithmic axis of a Doppler, on which what is mere rounding is shaded."""
-    values = np.concatenate([np.asarray(line.get_ydata(), dtype=float) for line in axes.lines])
-    finite = values[np.isfinite(values)]
-    high = max(float(finite.max(initial=1.0)), 10.0 * ROUNDING)
-    low = max(float(finite.min(initial=1.0)), _FLOOR)
-    axes.set_yscale("log")
-    axes.set_ylim(low / 5.0, high * 5.0)
-    axes.yaxis.set_major_locator(LogLocator(numticks=6))
-    axes.yaxis.set_minor_formatter(NullFormatter())
-    axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: power_of_ten(value)))
-    if low >= ROUNDING:
-        return
-    axes.axhspan(low / 50.0, ROUNDING, color=GRID, alpha=0.55, linewidth=0.0, zorder=0.4)
-    axes.annotate(
-        "zero, within rounding",
-        (0.985, ROUNDING),
-        xycoords=("axes fraction", "data"),
-        xytext=(0, -2),
-        textcoords="offset points",
-        ha="right",
-        va="top",
-        fontsize=7.0,
-        color=MUTED,
-    )
+    values = drawn_values(axes)
+    high = max(float(values.max(initial=1.0)), 10.0 * ROUNDING)
+    low = max(float(values.min(initial=1.0)), _FLOOR)
+    rounding_axis(axes, low=low / 5.0, high=high * 5.0, rounding=ROUNDING, ticks=6)
 
 
 def _paint_offsets(axes: Axes, case: CaseResult) -> None:

@@ -15,7 +15,7 @@ from insar.observe.agile.agility import Agility
 from insar.observe.agile.profiles import Profile
 
 from ..tables_steering import rate_of
-from .steering import thinned
+from .axes import thinned
 from .style import BROKEN, INK, MUTED, color, draw, name_series
 
 Array = NDArray[np.float64]

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from insar.observe.agile.video_results import LawSummary, VideoResult
 
 from ..agile_words import yaw_law_name
-from .steering import thinned
+from .axes import thinned
 from .style import BROKEN, INK, MUTED, color, draw, error_axis, name_series
 from .turning import DASHES, TIME_LABEL
 

@@ -17,6 +17,7 @@ from ..tables_steering import claims_frame
 from . import sections
 from .closing import closing_sections, formation_setting
 from .coherence import coherence_section
+from .comparison import comparison_section
 from .dem import dem_section, limits_section
 from .interferometry import pairs_section, unwrapping_section
 from .methods import methods_section
@@ -57,7 +58,7 @@ def document(result: EvaluateResult, study: StudyInfo, provenance: Provenance) -
         dem_section(problem, result.dem),
         limits_section(problem, result.dem),
         sections.constraints_section([result.formation]),
-        sections.comparison_section(result.formation, result.compare),
+        comparison_section(result.formation, result.compare),
         mission_claims_section(result),
         methods_section(
             problem,

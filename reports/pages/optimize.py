@@ -20,6 +20,7 @@ from . import sections
 from .certificate import certificate_section
 from .closing import closing_sections, formation_setting
 from .coherence import coherence_section
+from .comparison import comparison_section
 from .dem import dem_section, limits_section
 from .interferometry import pairs_section, unwrapping_section
 from .methods import methods_section
@@ -59,7 +60,7 @@ def document(result: OptimizeResult, study: StudyInfo, provenance: Provenance) -
         dem_section(problem, result.dem),
         limits_section(problem, result.dem),
         sections.constraints_section([result.best, result.initial]),
-        sections.comparison_section(result.best, result.compare),
+        comparison_section(result.best, result.compare),
         methods_section(problem, search=result.search, observation=study.observation),
         *closing_sections(
             formation_setting(problem, result.critical_baseline, study), study, provenance

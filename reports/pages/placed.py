@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 
-from optimize import Problem
+from optimize import Assessment, Problem
 
-from ..document import Block, Figure, Paragraph, Section
+from ..document import Block, Column, Figure, Paragraph, Section, Table
 from ..figures.placed import placed_figure
 from ..reading import Shown
-from ..wording import counted
-from .sections import placed_table
+from ..tables import placed_frame
+from ..wording import counted, fixed, formation_name, to_span
 
 
 def placed_section(problem: Problem, formations: Sequence[Shown]) -> Section:
@@ -45,3 +46,19 @@ def placed_section(problem: Problem, formations: Sequence[Shown]) -> Section:
         )
     )
     return Section("formation", "The formation", tuple(blocks))
+
+
+def placed_table(assessment: Assessment) -> Table:
+    """Positions of satellites that follow no known orbit."""
+    tenths = to_span(partial(fixed, decimals=1))
+    return Table(
+        placed_frame(assessment),
+        (
+            Column("satellite", "Satellite"),
+            Column("r_m", "R", "m", tenths),
+            Column("t_m", "T", "m", tenths),
+            Column("n_m", "N", "m", tenths),
+        ),
+        f"Positions of the {formation_name(assessment.label)} in the middle segment; of one that "
+        "changes over the scene, the smallest and the largest (every segment: positions.csv).",
+    )

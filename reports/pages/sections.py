@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import partial
 
 import pandas as pd
 
@@ -29,32 +28,26 @@ from ..reading import (
     ACTIVE_MARGIN,
     Baselines,
     Shown,
-    broken,
     drawn_baselines,
     measured,
     unmeasured_reason,
 )
 from ..study import Provenance, StudyInfo
 from ..tables import (
-    comparison_frame,
     constraints_frame,
     formation_frame,
-    placed_frame,
     region_frame,
     shares_frame,
 )
 from ..wording import (
     counted,
-    fixed,
     formation_name,
     percent,
     significant,
     to_decimals,
     to_digits,
     to_probabilities,
-    to_span,
 )
-from .interferometry import OVER_CRITICAL
 from .limits import limit_text, margin_text, value_text
 
 _EPOCH = "t\u00a0=\u00a00"
@@ -168,14 +161,14 @@ def height_error_section(problem: Problem, formations: Sequence[Shown]) -> Secti
                 Column("smallest_m", "min", "m", numbers),
                 Column("largest_m", "max", "m", numbers),
                 Column("relative_rms_m", "Relative, RMS", "m", numbers),
-                *_unwrapping_column(frame),
+                *unwrapping_column(frame),
                 *((Column("feasible", "Keeps all limits"),) if limited else ()),
             ),
             f"Height error over the {counted(len(problem.scene), 'segment')} of the scene. The "
             "relative error is the part that varies from pixel to pixel"
             + (
                 ", and unwrapping the probability in the worst segment."
-                if _unwrapping_column(frame)
+                if unwrapping_column(frame)
                 else "."
             ),
         )
@@ -199,7 +192,7 @@ def height_error_section(problem: Problem, formations: Sequence[Shown]) -> Secti
     return Section("height-error", "Height error", tuple(blocks))
 
 
-def _unwrapping_column(frame: pd.DataFrame) -> tuple[Column, ...]:
+def unwrapping_column(frame: pd.DataFrame) -> tuple[Column, ...]:
     """The probability of unwrapping in the worst segment, where it was assessed."""
     if frame["unwrapping_probability"].isna().all():
         return ()
@@ -284,57 +277,4 @@ def _constraints_table(assessment: Assessment) -> Table:
         ),
         f"Limits and the {formation_name(assessment.label)}.",
         tuple(marks[state] for state in frame["state"]),
-    )
-
-
-def comparison_section(best: Assessment, others: Sequence[Assessment]) -> Section | None:
-    """Formations beside the result; None without any."""
-    if not others:
-        return None
-    frame = comparison_frame([best, *others])
-    failures = [broken(one) for one in (best, *others)]
-    kept = "all kept" if best.constraints else "none set"
-    frame["limits"] = [
-        "; ".join(f"{r.limit.name} {value_text(r)}, {limit_text(r)}" for r in reports) or kept
-        for reports in failures
-    ]
-    numbers = to_digits(4)
-    table = Table(
-        frame,
-        (
-            Column("label", "Formation"),
-            Column("region_rms_m", "Total", "m", numbers),
-            Column("relative_rms_m", "Relative", "m", numbers),
-            *_unwrapping_column(frame),
-            Column("baseline_over_critical", ("largest ", *OVER_CRITICAL), "", to_decimals(3)),
-            *_separation_column(frame),
-            Column("limits", "Limits"),
-        ),
-        "Formations side by side, all assessed with the same model and limits.",
-        tuple(Status.BAD if reports else Status.NOTE for reports in failures),
-    )
-    shown = [formation_table(one) if one.motion else placed_table(one) for one in others]
-    return Section("comparison", "Comparison", (table, *shown))
-
-
-def _separation_column(frame: pd.DataFrame) -> tuple[Column, ...]:
-    """The closest approach, where the orbits of some formation are known."""
-    if frame["min_separation_m"].isna().all():
-        return ()
-    return (Column("min_separation_m", "Closest approach", "m", to_decimals(1)),)
-
-
-def placed_table(assessment: Assessment) -> Table:
-    """Positions of satellites that follow no known orbit."""
-    tenths = to_span(partial(fixed, decimals=1))
-    return Table(
-        placed_frame(assessment),
-        (
-            Column("satellite", "Satellite"),
-            Column("r_m", "R", "m", tenths),
-            Column("t_m", "T", "m", tenths),
-            Column("n_m", "N", "m", tenths),
-        ),
-        f"Positions of the {formation_name(assessment.label)} in the middle segment; of one that "
-        "changes over the scene, the smallest and the largest (every segment: positions.csv).",
     )

@@ -5,35 +5,26 @@ from __future__ import annotations
 import math
 from typing import Any
 
-import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from insar.simulation import Comparison, TerrainSimulation
+from insar.simulation import TerrainSimulation
 
 from ..document import (
-    Callout,
     Column,
     Document,
     Figure,
-    Metric,
-    Metrics,
     Paragraph,
     Section,
-    Status,
-    Strong,
     Table,
-    Text,
 )
 from ..figures.terrain import error_histogram_figure, error_maps_figure, terrain_figure
 from ..json_simulate import simulate_json
 from ..study import Provenance, StudyInfo
-from ..wording import counted, fixed, joined, meters, percent, plain, quantity, to_decimals
+from ..wording import counted, fixed, plain, quantity, to_decimals
 from . import sections
 from .closing import closing_sections, facts
-
-_AGREES, _SIGNIFICANT, _WRONG = 0.05, 3.0, 0.01
-"""A difference counts beyond 5 % and three sampling errors; of wrong cycles, 1 % of the points."""
+from .simulate_verdict import simulate_verdict
 
 
 def document(result: TerrainSimulation, study: StudyInfo, provenance: Provenance) -> Document:
@@ -41,7 +32,7 @@ def document(result: TerrainSimulation, study: StudyInfo, provenance: Provenance
     return sections.document(
         study,
         provenance,
-        Section("result", "Result", (_verdict(result), _metrics(result))),
+        Section("result", "Result", simulate_verdict(result)),
         _terrain_section(result),
         _error_section(result),
         _methods_section(result),
@@ -82,94 +73,6 @@ def arrays(result: TerrainSimulation) -> dict[str, NDArray[Any]]:
         "most_likely_error_m": maps.likely_error,
         "wrong_cycle": maps.wrong,
     }
-
-
-def _differs(comparison: Comparison, tolerance: float) -> bool:
-    difference = abs(comparison.simulated.value - comparison.predicted)
-    return difference > max(_SIGNIFICANT * comparison.simulated.sampling_error, tolerance)
-
-
-def _disagreements(result: TerrainSimulation) -> list[str]:
-    return [
-        name
-        for name, comparison, tolerance in (
-            ("random error", result.random, _AGREES * result.random.predicted),
-            ("total error", result.total, _AGREES * result.total.predicted),
-            ("share of wrong cycles", result.wrong, _WRONG),
-        )
-        if _differs(comparison, tolerance)
-    ]
-
-
-def _verdict(result: TerrainSimulation) -> Callout:
-    wrong = result.wrong
-    differing = _disagreements(result)
-    nothing = result.least_squares >= result.prior
-    if nothing:
-        status, title = Status.BAD, "The heights are no better than those known beforehand"
-    elif differing:
-        status, title = Status.WARNING, f"The error model misses the {joined(differing)}"
-    else:
-        status, title = Status.GOOD, "The error model holds over this terrain"
-    paragraphs: list[Text] = [
-        (
-            "With every cycle right, heights are wrong by ",
-            Strong(meters(result.total.simulated.value)),
-            f" (predicted {meters(result.total.predicted)}), of which noise makes ",
-            Strong(meters(result.random.simulated.value)),
-            f" (predicted {meters(result.random.predicted)}). A cycle is wrong in ",
-            Strong(percent(wrong.simulated.value)),
-            f" of the points (predicted {percent(wrong.predicted)}).",
-        ),
-        f"All points together, wrong cycles included, least squares is wrong by "
-        f"{meters(result.least_squares)} (maximum likelihood, in the first acquisition, by "
-        f"{meters(result.most_likely)}); "
-        f"the elevation model known beforehand was by {meters(result.prior)}.",
-        _measured(result),
-    ]
-    if result.departures:
-        paragraphs.append(
-            "The study takes more for granted than nature gives. Here "
-            f"{joined(list(result.departures))}."
-        )
-    return Callout(status, title, tuple(paragraphs))
-
-
-def _measured(result: TerrainSimulation) -> str:
-    view, maps = result.request.view, result.maps
-    total = view.layover.size
-    text = (
-        f"{np.count_nonzero(maps.clear)} of the "
-        f"{total} points are clear; all figures are of these. "
-        f"{percent(np.count_nonzero(view.layover) / total)} lie in layover, "
-        f"{percent(np.count_nonzero(view.shadow) / total)} in shadow"
-    )
-    dark = np.count_nonzero(view.seen & ~maps.clear) / total
-    return f"{text}, and {percent(dark)} on slopes where some image has next to no common band."
-
-
-def _metrics(result: TerrainSimulation) -> Metrics:
-    return Metrics(
-        (
-            Metric(
-                "Total error",
-                meters(result.total.simulated.value),
-                f"predicted {meters(result.total.predicted)}",
-            ),
-            Metric(
-                "Random error",
-                meters(result.random.simulated.value),
-                f"predicted {meters(result.random.predicted)}",
-            ),
-            Metric(
-                "Wrong cycles",
-                percent(result.wrong.simulated.value),
-                f"predicted {percent(result.wrong.predicted)}",
-            ),
-            Metric("All points", meters(result.least_squares), f"prior {meters(result.prior)}"),
-            Metric("Clear points", str(result.points), f"of {result.maps.clear.size}"),
-        )
-    )
 
 
 def _frame(result: TerrainSimulation) -> pd.DataFrame:
