@@ -102,6 +102,7 @@ class _Mistake(NamedTuple):
     context: dict[str, Any]
 
     def place(self, document: Document) -> Mark:
+        """Where the file says it."""
         if self.kind == "extra_forbidden":
             return document.keys[self.path]
         if self.kind == "missing":
@@ -109,6 +110,7 @@ class _Mistake(NamedTuple):
         return _place((*self.path, *self.context.get("at", ())), document)
 
     def text(self, document: Document, schema: Schema) -> str:
+        """What is wrong, with the limit and the remedy."""
         if self.kind == CROSS_CHECK:
             named = _assignment((*self.path, *self.context["at"]), document.data)
             return f"{named} {self.context['text']}; {self.context['remedy']}"

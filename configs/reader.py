@@ -95,6 +95,7 @@ class _Loader(yaml.SafeLoader):
         self.count = 0
 
     def compose_node(self, parent: yaml.Node | None, index: int) -> yaml.Node | None:
+        """Compose a node of a document that is neither too deep nor too large."""
         self.depth += 1
         self.count += 1
         if self.depth > MAX_DEPTH or self.count > MAX_VALUES:
@@ -129,6 +130,7 @@ class _Walk:
         self.keys: dict[KeyPath, Mark] = {}
 
     def value(self, node: yaml.Node, path: KeyPath) -> Any:
+        """Value of a node in plain Python; notes where each key stands."""
         mark = _mark(node.start_mark)
         self.marks[path] = mark
         if len(self.marks) > MAX_VALUES:

@@ -92,6 +92,7 @@ class _Renderer:
         self._numbers: Counter[str] = Counter()
 
     def section(self, section: Section) -> str:
+        """A section with its heading and blocks."""
         blocks = "\n".join(self._block(block) for block in section.blocks)
         key, title = escape(section.key), escape(section.title)
         return (

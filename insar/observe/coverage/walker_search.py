@@ -109,6 +109,7 @@ class _Task(NamedTuple):
     ellipsoid: Ellipsoid
 
     def walker(self, total: int, planes: int, phasing: int, inclination: float) -> Walker:
+        """The pattern at the altitude of the search."""
         return Walker(
             total=total,
             planes=planes,
@@ -148,6 +149,7 @@ class _Task(NamedTuple):
                 yield self.assess(views, self.walker(total, count, phasing, inclination))
 
     def assess(self, views: list[Mask], walker: Walker) -> tuple[Walker, float, float, Verdict]:
+        """Least cover over the latitudes, longest gap [s], and what is proved of a pattern."""
         covers = [
             fold(
                 view,
