@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -16,7 +17,8 @@ from .assessment import (
     first_height_error,
     unwrapping_of,
 )
-from .constraints import Bound, ConstraintReport, FailureLimit, Population
+from .constraints import Bound, ConstraintReport, FailureLimit
+from .population import Population
 from .problem import Problem
 
 
@@ -115,7 +117,7 @@ def _pairs(problem: Problem, apart: Sequence[Assessment]) -> tuple[ImagePair, ..
 def _constraints(
     problem: Problem, placed: Population, model: PhaseModel
 ) -> tuple[ConstraintReport, ...]:
-    together = placed._replace(model=model)
+    together = replace(placed, given_model=model)
     reports = []
     for limit in problem.limits:
         population = together if isinstance(limit, FailureLimit) else placed

@@ -24,7 +24,8 @@ from insar import (
 from insar.simulation import Refutation
 from insar.unwrapping import bootstrap_failure
 
-from .constraints import ConstraintReport, Population
+from .constraints import ConstraintReport
+from .population import Population
 from .problem import Problem
 
 Array = NDArray[np.float64]

@@ -16,42 +16,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from formation import min_separation, orbit_radius
-from insar import (
-    ErrorBudget,
-    PhaseModel,
-    Radar,
-    Scene,
-    pair_critical_baseline,
-    pair_geometry,
-    unwrapping_ladder,
-)
+from insar import pair_critical_baseline, pair_geometry, unwrapping_ladder
+
+from .population import Population
 
 Array = NDArray[np.float64]
 
 FEASIBILITY_TOLERANCE = 1e-9
 """Overshoot of a limit, in the units of `Limit.margins`, that counts as rounding."""
-
-
-class Population(NamedTuple):
-    """P formations with everything that a limit may look at.
-
-    Attributes
-    ----------
-    states : (P, N, 6) — RTN states at t = 0 [m, m/s]; None for satellites that are placed at each
-        time, by a table, and follow no known orbit.
-    positions : (P, S, N, 3) — RTN positions at the scene's times [m].
-    model : their phase model.
-    mean_motion : scalar — angular rate of the reference orbit [rad/s].
-    scene, radar, errors : what they observe, and how.
-    """
-
-    states: Array | None
-    positions: Array
-    model: PhaseModel
-    mean_motion: float
-    scene: Scene
-    radar: Radar
-    errors: ErrorBudget
 
 
 class Bound(IntEnum):

@@ -9,18 +9,21 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from formation import relative_positions
-from insar import ErrorBudget, HeightError, Radar, Scene, height_error_of, phase_model
+from insar import ErrorBudget, HeightError, Radar, Scene, height_error_of
 
 from .constraints import (
     FEASIBILITY_TOLERANCE,
     ConstraintReport,
     Constraints,
     Limit,
-    Population,
 )
+from .population import Population
+from .scatter import Scatter, scatter_of
 
 Array = NDArray[np.float64]
+
+_CHUNK = 100_000
+"""Elements of matrices of all images, over formations and segments, that a pass works on."""
 
 
 class Evaluation(NamedTuple):
@@ -104,9 +107,45 @@ class Problem:
         margins : for each limit (P, items) — see `Limit.margins`; each item is a smooth function
             of the design, the worst of them is not.
         """
+        state = np.asarray(states, dtype=np.float64)
+        size = self._chunk
+        parts = [self._scored(state[at : at + size]) for at in range(0, max(len(state), 1), size)]
+        if len(parts) == 1:
+            return parts[0]
+        regions, margins = zip(*parts, strict=True)
+        return np.concatenate(regions), [np.concatenate(one) for one in zip(*margins, strict=True)]
+
+    def _scored(self, states: Array) -> tuple[Array, list[Array]]:
         population = self.population(states)
-        error = self.height_error(population)
-        return error.region, [limit.margins(population) for limit in self.limits]
+        return self.region_error(population), [limit.margins(population) for limit in self.limits]
+
+    @property
+    def _chunk(self) -> int:
+        """Formations of one pass, so that a matrix for each segment stays in the cache."""
+        return max(1, _CHUNK // (len(self.scene) * len(self.radar.images) ** 2))
+
+    def region_error(self, population: Population) -> Array:
+        """Region height error, without what each segment and each source adds.
+
+        Parameters
+        ----------
+        population : from `population` or `placed`.
+
+        Returns
+        -------
+        (P,) — [m]; `inf` where no height is measured. Where all images are alike it comes of the
+        scatter of their phase centers (`optimize.scatter`), elsewhere of `height_error`.
+        """
+        scatter, states = self._scatter, population.states
+        if scatter is None or states is None or states.shape[1:] != (scatter.satellites, 6):
+            return self.height_error(population).region
+        return scatter.region(states)
+
+    @cached_property
+    def _scatter(self) -> Scatter | None:
+        return scatter_of(
+            scene=self.scene, radar=self.radar, errors=self.errors, mean_motion=self.mean_motion
+        )
 
     def population(self, states: ArrayLike) -> Population:
         """Formations with their phase model at the scene's times.
@@ -115,9 +154,7 @@ class Problem:
         ----------
         states : (P, N, 6) — RTN states at t = 0 [m, m/s].
         """
-        state = np.asarray(states, dtype=np.float64)
-        positions = relative_positions(state, self.scene.times, mean_motion=self.mean_motion)
-        return self._population(state, positions)
+        return self._population(np.asarray(states, dtype=np.float64), None)
 
     def placed(self, positions: ArrayLike) -> Population:
         """Formations that are given by their positions, whatever orbits lead there.
@@ -138,11 +175,10 @@ class Problem:
             )
         return self._population(None, np.asarray(positions, dtype=np.float64))
 
-    def _population(self, states: Array | None, positions: Array) -> Population:
+    def _population(self, states: Array | None, placed: Array | None) -> Population:
         return Population(
             states=states,
-            positions=positions,
-            model=phase_model(positions, self.scene, radar=self.radar, errors=self.errors),
+            placed=placed,
             mean_motion=self.mean_motion,
             scene=self.scene,
             radar=self.radar,

@@ -195,7 +195,7 @@ def test_a_model_that_grew_is_noticed(monkeypatch):
     def changed(self, states):
         population = original(self, states)
         model = population.model._replace(information=population.model.information * 1.001)
-        return population._replace(model=model)
+        return dataclasses.replace(population, given_model=model)
 
     monkeypatch.setattr(Problem, "population", changed)
     assert design_slopes(problem, space)(design) is None

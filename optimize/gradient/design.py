@@ -87,9 +87,8 @@ class _Differentiation:
         bands = bands_of(population, problem)
         if bands is None:
             return None
-        error = problem.height_error(population)
         margins = [limit.margins(population)[0] for limit in problem.limits]
-        objective = float(error.region[0])
+        objective = float(problem.region_error(population)[0])
         if not math.isfinite(objective):
             return None
         model = _first(population.model)

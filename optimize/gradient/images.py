@@ -13,7 +13,7 @@ from insar.coherence import doppler_offset
 from insar.image_model import image_model
 from insar.statistics import efficiency_curves
 
-from ..constraints import Population
+from ..population import Population
 from ..problem import Problem
 from .edges import Bands
 

@@ -11,14 +11,16 @@ from numpy.typing import NDArray
 from insar import BaselineDecorrelation, SharedBy, Weighting
 from insar.baselines import scene_critical_baseline
 from insar.coherence import doppler_offset, image_amplitude
+from insar.height import common_height_errors
 from insar.statistics import efficiency_curves
 
 from ..design_space import DesignSpace
 from ..problem import Problem
 from ..projection import projection
+from ..scatter import alike_variance
+from ..shared_errors import shared_errors
 from .efficiency import NO_EFFICIENCY, NO_LINE, efficiency, exact, variance_line
 from .parts import MOST_IMAGES, NO_PARTS, parts
-from .shared_errors import alike_variance, height_shift, shared_errors
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -153,8 +155,9 @@ def constants(problem: Problem, space: DesignSpace) -> Constants:
     )
     azimuth = 2.0 * math.pi / radar.wavelength * errors.azimuth.std
     in_pairs = errors.azimuth.shared_by is SharedBy.PAIR
-    shared = shared_errors(problem)
-    alike = alike_variance(problem, amplitude, shared)
+    shared = shared_errors(radar=radar, errors=errors)
+    alike = alike_variance(scene=problem.scene, radar=radar, errors=errors)
+    common = common_height_errors(problem.scene, radar=radar, errors=errors)
     numbers: dict[str, Any] = {
         "satellites": space.satellites,
         "images": len(radar.images),
@@ -173,9 +176,9 @@ def constants(problem: Problem, space: DesignSpace) -> Constants:
         "shared": shared.shared,
         "own_variance": shared.own_variance,
         "azimuth_factor": 0.0 if in_pairs else azimuth,
-        "scatter": bool(np.all(alike > 0.0)),
-        "alike": alike,
-        "shift": height_shift(problem),
+        "scatter": alike is not None,
+        "alike": np.zeros(len(problem.scene)) if alike is None else alike,
+        "shift": np.sum([error**2 for error in common.values()], axis=0),
     }
     numbers |= _plane(problem, space) | _noise(problem, amplitude) | _limits(problem)
     return Constants(**{name: _plain(numbers[name], kind) for name, kind in _KINDS.items()})
