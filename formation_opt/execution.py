@@ -167,6 +167,7 @@ def _provenance(outcome: Outcome, command: str, started: datetime, *, seconds: f
         started=started.isoformat(timespec="seconds"),
         wall_s=seconds,
         evaluations=outcome.evaluations,
+        compiled=outcome.compiled,
         command=command,
     )
 

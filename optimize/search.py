@@ -98,6 +98,7 @@ class SearchResult:
     history : a line each generation.
     interrupted : whether the search was stopped before its end.
     settings : that it was run with.
+    compiled : whether compiled loops scored the formations, instead of arrays.
     """
 
     design: Array
@@ -109,6 +110,7 @@ class SearchResult:
     history: tuple[GenerationRecord, ...]
     interrupted: bool
     settings: SearchSettings
+    compiled: bool = False
 
     @property
     def method(self) -> SearchMethod:
@@ -339,6 +341,7 @@ class _Search:
             history=tuple(self.history),
             interrupted=interrupted,
             settings=settings,
+            compiled=self.compiled is not None,
         )
 
     def _score(self, designs: Array) -> tuple[Array, Array]:

@@ -61,6 +61,7 @@ def result_json(body: Json, *, study: StudyInfo, provenance: Provenance) -> byte
             "started": provenance.started,
             "wall_s": provenance.wall_s,
             "evaluations": provenance.evaluations,
+            "compiled": provenance.compiled,
             "command": provenance.command,
         },
         **_observed(study),

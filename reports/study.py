@@ -58,6 +58,7 @@ class Provenance:
     started : date and time, ISO 8601.
     wall_s : duration of the run [s].
     evaluations : formations scored.
+    compiled : whether compiled loops scored them instead of arrays; None where nothing is searched.
     command : the command as given.
     """
 
@@ -70,3 +71,4 @@ class Provenance:
     wall_s: float
     evaluations: int
     command: str
+    compiled: bool | None = None

@@ -221,6 +221,8 @@ def test_a_long_search_is_scored_by_the_loops(monkeypatch):
     monkeypatch.setattr(sys.modules["optimize.kernel.evaluator"], "_agree", lambda *_: True)
     compiled = found()
     assert compiled.feasible
+    assert compiled.compiled
+    assert not arrays.compiled  # 600 formations: too few
     assert compiled.objective == pytest.approx(arrays.objective, rel=1e-6)
 
 

@@ -71,6 +71,7 @@ def run(study: OptimizeStudy, setup: OptimizeSetup, options: Options) -> Outcome
         result=result,
         summary=formation_summary((initial, best), cautions, dem=dem, certificate=certificate),
         evaluations=found.evaluations,
+        compiled=found.compiled,
         seed=seed,
         orbit=setup.orbit,
         observation=setup.observation,

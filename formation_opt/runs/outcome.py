@@ -56,6 +56,7 @@ class Outcome:
     result : for `reports.write_report`.
     summary : for the terminal.
     evaluations : formations scored; 0 where none are.
+    compiled : whether compiled loops scored them; None where nothing is searched.
     seed : that was used; None where nothing is random.
     orbit : the reference orbit; None where the study has several, or none.
     observation : where the scene comes from; None if it was given.
@@ -66,6 +67,7 @@ class Outcome:
     result: object
     summary: Summary
     evaluations: int = 0
+    compiled: bool | None = None
     seed: int | None = None
     orbit: Orbit | None = None
     observation: Observation | StaringScene | None = None

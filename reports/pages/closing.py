@@ -170,6 +170,11 @@ def _span(values: NDArray[np.float64], unit: str, decimals: int) -> str:
     return f"{text}{unit}" if unit == "°" else quantity(text, unit)
 
 
+def _scored(provenance: Provenance) -> str:
+    how = {None: "", True: ", in compiled loops", False: ", in arrays"}[provenance.compiled]
+    return f"{provenance.evaluations}{how}"
+
+
 def _origin(study: StudyInfo, provenance: Provenance) -> list[tuple[str, str]]:
     return [
         ("formation-opt", provenance.version),
@@ -177,7 +182,7 @@ def _origin(study: StudyInfo, provenance: Provenance) -> list[tuple[str, str]]:
         ("seed", "none" if provenance.seed is None else str(provenance.seed)),
         ("study file, SHA-256", study.config_sha256),
         *((f"{name}, SHA-256", digest) for name, digest in study.inputs),
-        *([("formations scored", str(provenance.evaluations))] if provenance.evaluations else []),
+        *([("formations scored", _scored(provenance))] if provenance.evaluations else []),
         ("started", provenance.started),
         ("duration", f"{provenance.wall_s:.1f} s"),
         ("Python", provenance.python),

@@ -85,6 +85,8 @@ def csv(result: OptimizeResult) -> dict[str, pd.DataFrame]:
 def _convergence_section(result: OptimizeResult) -> Section:
     search = result.search
     text = f"{counted(search.evaluations, 'formation')} were scored"
+    if search.compiled:
+        text += " in compiled loops"
     if search.refined:
         last = search.history[-1].evaluations - search.history[-2].evaluations
         text += f", {last} of them by the local refinement"
