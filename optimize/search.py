@@ -19,7 +19,7 @@ from .design_space import DesignSpace
 from .genetic import GeneticSettings
 from .gradient import DesignSlopes, design_slopes
 from .islands import Algorithm, Generation, IslandSettings, SearchMethod, generations
-from .kernel import compiled_evaluator
+from .kernel import CompiledEvaluator, compiled_evaluator
 from .problem import Evaluation, Problem
 from .progress import Candidate, Forgetful, GenerationRecord, Keeper, Step
 from .refinement import refine
@@ -341,7 +341,7 @@ class _Search:
             history=tuple(self.history),
             interrupted=interrupted,
             settings=settings,
-            compiled=self.compiled is not None,
+            compiled=isinstance(self.evaluator, CompiledEvaluator),
         )
 
     def _score(self, designs: Array) -> tuple[Array, Array]:
