@@ -17,6 +17,7 @@ from pathlib import Path
 
 import jsonschema
 import numpy as np
+import pandas as pd
 import pytest
 
 from formation import Orbit, equally_spaced, ground_track_circular
@@ -38,7 +39,7 @@ from optimize import (
     search,
 )
 from reports import Provenance, StudyInfo, write_report
-from reports.document import Figure, Strong, Symbol
+from reports.document import Column, Document, Figure, Section, Strong, Symbol, Table
 from reports.figures.convergence import convergence_figure
 from reports.figures.orbits import half_extents
 from reports.figures.orbits_interactive import interactive_orbits
@@ -666,3 +667,27 @@ def test_import_is_light() -> None:
     code = f"import sys, reports; print([m for m in {heavy!r} if m in sys.modules])"
     found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert found.stdout.strip() == "[]"
+
+
+def test_a_note_stands_beneath_its_row_over_the_whole_width():
+    table = Table(
+        pd.DataFrame({"name": ["one", "two"], "value": ["1", "2"]}),
+        (Column("name", "Name"), Column("value", "Value")),
+        "Numbers.",
+        notes=("why < one", ""),
+    )
+    document = Document(
+        title="t", subtitle="", description="", producer="", sections=(Section("a", "A", (table,)),)
+    )
+    page = html_bytes(document).decode()
+    rows = re.findall(r"<tr[^>]*>(.*?)</tr>", page.split("<tbody>")[1])
+    assert len(rows) == 3
+    assert rows[1] == '<td colspan="2">why &lt; one</td>'
+    assert pdf_bytes(document).startswith(b"%PDF-")
+    with pytest.raises(ValueError, match="zip"):
+        html_bytes(
+            dataclasses.replace(
+                document,
+                sections=(Section("a", "A", (dataclasses.replace(table, notes=("one",)),)),),
+            )
+        )

@@ -28,7 +28,14 @@ from insar import (
 from insar.bands import BandCell as Cell
 from insar.bands import band_cells
 from insar.phase_information import cell_information
-from insar.simulation import MAX_IMAGES, Verdict, natural_errors, refute
+from insar.simulation import (
+    MAX_IMAGES,
+    Comparison,
+    Simulated,
+    Verdict,
+    natural_errors,
+    refute,
+)
 from insar.simulation.estimators import Processor, along_ladder, bootstrapped, likely_heights
 from insar.simulation.linking import laplacian, linked_phases, slope_and_weights
 from insar.simulation.speckle import Speckle, link_matrices
@@ -429,6 +436,24 @@ def test_nature_keeps_a_natural_budget_and_mends_the_others():
     assert mended.azimuth.shared_by is SharedBy.ALL
     assert mended.phase_std is None
     assert natural_errors(mended) == (mended, ())
+
+
+@pytest.mark.parametrize(
+    ("predicted", "value", "sampling_error", "height", "share"),
+    [
+        (1.00, 1.04, 0.001, False, True),  # 40 sampling errors, but no user notices 4 % of a height
+        (1.00, 1.06, 0.001, True, True),
+        (1.00, 1.06, 0.021, False, False),  # within three sampling errors
+        (0.010, 0.019, 0.001, True, False),  # 0.9 % of the pixels
+        (0.010, 0.021, 0.001, True, True),
+        (math.inf, 1.0, 0.1, True, True),
+    ],
+)
+def test_a_difference_counts_beyond_chance_and_beyond_what_matters(
+    predicted, value, sampling_error, height, share
+):
+    comparison = Comparison(predicted, Simulated(value, sampling_error))
+    assert (comparison.height_differs, comparison.share_differs) == (height, share)
 
 
 def test_images_without_a_common_band_measure_nothing():
