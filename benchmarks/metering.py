@@ -18,8 +18,8 @@ Array = NDArray[np.float64]
 Result = TypeVar("Result")
 
 
-class BudgetSpentError(Exception):
-    """A search asked for more evaluations than it was given."""
+class EndOfRunError(Exception):
+    """A search asked for more evaluations than it was given, or is where it was to come to."""
 
 
 @dataclass
@@ -29,6 +29,7 @@ class Meter:
     Attributes
     ----------
     budget : evaluations that it may use.
+    target : height error at which it may stop [m].
     evaluations : formations scored.
     seconds : CPU time inside the evaluator, from design vectors to scores [s].
     best : smallest region height error of all feasible formations that it scored [m].
@@ -37,6 +38,7 @@ class Meter:
     """
 
     budget: float = np.inf
+    target: float = -np.inf
     evaluations: int = 0
     seconds: float = 0.0
     best: float = np.inf
@@ -55,16 +57,18 @@ class Meter:
         """The designs that the budget still allows."""
         admitted = designs[: int(min(self.budget - self.evaluations, len(designs)))]
         if len(admitted) == 0:
-            raise BudgetSpentError
+            raise EndOfRunError
         self.evaluations += len(admitted)
         return admitted
 
     def note(self, objectives: Array, feasible: NDArray[np.bool_]) -> None:
-        """Remember the best feasible formation."""
+        """Remember the best feasible formation; end the run at the target."""
         best = float(np.min(objectives, where=feasible, initial=np.inf))
         if best < self.best:
             self.best = best
             self.improvements.append((process_time() - self.start, best))
+        if self.best <= self.target:
+            raise EndOfRunError
 
     def reached(self, target: float) -> float:
         """CPU time at which the best came to a target; `inf` if it never did [s]."""
@@ -102,7 +106,7 @@ class MeteredEvaluator(NamedTuple):
         result = self.meter.timed(self.inner.evaluate, admitted)
         self.meter.note(result.objectives, result.feasible)
         if len(admitted) < len(designs):
-            raise BudgetSpentError
+            raise EndOfRunError
         return result
 
     def objectives_and_margins(self, designs: Array) -> tuple[Array, Array]:
@@ -111,5 +115,5 @@ class MeteredEvaluator(NamedTuple):
         objectives, margins = self.meter.timed(self.inner.objectives_and_margins, admitted)
         self.meter.note(objectives, margins.min(axis=-1) >= -FEASIBILITY_TOLERANCE)
         if len(admitted) < len(designs):
-            raise BudgetSpentError
+            raise EndOfRunError
         return objectives, margins

@@ -328,14 +328,17 @@ PEERS: dict[str, Callable[[Task], None]] = {
     "ours, CMA-ES": partial(with_algorithm, algorithm=CovarianceSettings()),
     "ours, no structured designs": without_structure,
     "our genetic algorithm alone": our_genetic_algorithm,
-    "DEAP, one at a time": plain_deap,
     "scipy DE, constraints=": de_constraints,
     "scipy DE, Deb's rules": de_deb,
+    "scipy dual annealing": annealing,
+}
+OTHERS: dict[str, Callable[[Task], None]] = {
+    "DEAP, one at a time": plain_deap,
     "scipy DE, penalty": de_penalty,
     "scipy DE, constraints=, polish": partial(de_constraints, polish=True),
     "scipy DE, constraints=, our refine": partial(de_constraints, refined=True),
-    "scipy dual annealing": annealing,
 }
+"""Those that are left out where time is short."""
 if find_spec("pymoo"):
     PEERS |= {f"pymoo {name}": partial(pymoo, algorithm=name) for name in ("GA", "DE", "CMA-ES")}
 if find_spec("pygmo"):

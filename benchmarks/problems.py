@@ -195,7 +195,7 @@ def random_study(number: int) -> Landscape:
         wavelength=wavelength,
         slant_range_resolution=resolution,
         snr=10.0 ** rng.uniform(0.7, 1.5),
-        looks=float(rng.integers(4, 65)),
+        looks=float(rng.integers(6, 49)),
         images=one_transmitter(satellites),
         azimuth_resolution=resolution if rng.random() < 0.5 else None,
     )
@@ -215,7 +215,7 @@ def random_study(number: int) -> Landscape:
     )
     # Of satellites that are still allowed to turn, half of the smallest critical baseline.
     radius = min(0.5 * float(scene_critical_baseline(scene, radar).min()), 4000.0)
-    prior = rng.uniform(2.0, 10.0) if rng.random() < 0.6 else None
+    prior = rng.uniform(2.0, 8.0) if rng.random() < 0.85 else None
     family, name = ((ground_track_circular, "ground track"), (space_circular, "space"))[
         rng.integers(2)
     ]

@@ -34,7 +34,7 @@ end in the same optimum, and the evaluations of all but one are wasted (docs/per
 _CLOSED_FORM_FROM = 6
 """Satellites from which derivatives in closed form take less time than a batch of differences."""
 
-_CLOSED_FORM_BEYOND_LOOPS_FROM = 12
+_CLOSED_FORM_BEYOND_LOOPS_FROM = 32
 """The same where compiled loops score the batch."""
 
 _COMPILED_FROM = 2000
