@@ -345,3 +345,5 @@ if find_spec("pygmo"):
     PEERS |= {f"pygmo {name}": partial(pygmo, algorithm=name) for name in ("sade", "CMA-ES")}
 if find_spec("cma"):
     PEERS["pycma, restarts"] = pycma
+SLOW = ("scipy dual annealing", "pymoo GA", "pymoo DE", "pygmo sade")
+"""Peers that take 0.1 ms and more for each design, and hardly ever come near the optimum."""

@@ -153,7 +153,7 @@ def landscapes(*, counts: tuple[int, ...] = (3, 5, 8), quick: bool = False) -> l
     )
     limits = Constraints(max_radius=1211.2, min_separation=100.0)
     genetic = GeneticSettings(population=60, generations=10 if quick else 40)
-    settings = SearchSettings(genetic, refinements=1 if quick else 16)
+    settings = SearchSettings(genetic, refinements=1 if quick else 6)
     made: list[Landscape] = []
     for count in counts:
         problems = {
