@@ -17,7 +17,7 @@ from insar.observe.agile.spotlight_results import SpotlightRequest
 from insar.observe.agile.staring import StaringScene, staring_scene
 from insar.observe.agile.video import video
 from insar.observe.agile.video_claims import VideoClaim, VideoQuantity
-from insar.observe.agile.video_results import VideoRequest, YawLaw
+from insar.observe.agile.video_request import VideoRequest, YawLaw
 from insar.observe.scenes.passes import Direction
 
 from .agile import (

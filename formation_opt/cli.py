@@ -150,11 +150,23 @@ def _fail(message: str, code: int = WRONG_INPUT) -> int:
 
 
 def _list() -> int:
-    from configs import example_names, example_path, load_study
+    """Examples by kind, each with the first sentence of its description."""
+    import shutil
+    import textwrap
 
+    from configs import STUDIES, example_names, example_path, load_study
+
+    by_kind: dict[str, list[str]] = {kind: [] for kind in STUDIES}
+    width = min(shutil.get_terminal_size().columns, 100)
     for name in example_names():
-        first_sentence = load_study(example_path(name)).study.description.split(". ")[0]
-        say(f"{name:20} {first_sentence.rstrip('.')}")
+        study = load_study(example_path(name)).study
+        sentence = study.description.split(". ")[0].rstrip(".")
+        text = textwrap.fill(
+            f"{name:20} {sentence}", width, initial_indent="  ", subsequent_indent=" " * 23
+        )
+        by_kind[study.kind].append(text)
+    for kind, texts in by_kind.items():
+        say("\n".join([f"{kind}:", *texts]))
     return DONE
 
 

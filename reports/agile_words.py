@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from insar import LookSide
 from insar.observe.agile.spotlight_results import Pointing
-from insar.observe.agile.video_results import Staring, VideoResult, YawLaw
+from insar.observe.agile.video_request import YawLaw
+from insar.observe.agile.video_results import Staring, VideoResult
 from insar.observe.coverage.results import Verdict
 from insar.observe.coverage.walker import Visibility, Walker
 

@@ -16,7 +16,8 @@ from insar.observe.agile.spotlight_results import (
 )
 from insar.observe.agile.staring import StaringScene
 from insar.observe.agile.video_footprint import horizontal_axes
-from insar.observe.agile.video_results import VideoRequest, VideoResult
+from insar.observe.agile.video_request import VideoRequest
+from insar.observe.agile.video_results import VideoResult
 from insar.observe.earth import from_geodetic, to_geodetic, vertical
 from insar.observe.vectors import dot, unit
 

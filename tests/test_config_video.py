@@ -25,7 +25,7 @@ from formation_opt.runs import Options
 from formation_opt.runs import video as runs_video
 from insar import LookSide
 from insar.observe.agile.video_claims import VideoClaim, VideoQuantity, judge_video
-from insar.observe.agile.video_results import YawLaw
+from insar.observe.agile.video_request import YawLaw
 from insar.observe.scenes.passes import Direction
 
 LIANG = example_text("liang2018_video")

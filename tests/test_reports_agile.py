@@ -21,7 +21,8 @@ from insar.observe.agile.agility import Agility
 from insar.observe.agile.spotlight import spotlight
 from insar.observe.agile.spotlight_results import Pointing, SpotlightRequest, SpotlightResult
 from insar.observe.agile.video import video
-from insar.observe.agile.video_results import VideoRequest, VideoResult, YawLaw
+from insar.observe.agile.video_request import VideoRequest, YawLaw
+from insar.observe.agile.video_results import VideoResult
 from insar.observe.coverage.results import Coverage, CoverageResult
 from insar.observe.coverage.simulation import simulate_coverage, symmetric_longitudes
 from insar.observe.coverage.sizing import sizing_shortfall, walker_sizing

@@ -26,7 +26,8 @@ from insar.observe.agile.video import video, video_scene
 from insar.observe.agile.video_attitude import hold, stare, staring_profile
 from insar.observe.agile.video_footprint import footprint_map, footprints, horizontal_axes
 from insar.observe.agile.video_frames import effective_speed, frame_length, overlap, rate_limit
-from insar.observe.agile.video_results import Staring, VideoRequest, VideoResult, YawLaw
+from insar.observe.agile.video_request import VideoRequest, YawLaw
+from insar.observe.agile.video_results import Staring, VideoResult
 from insar.observe.agile.video_yaw import Beam, Held
 from insar.observe.attitude import angular_rates
 from insar.observe.earth import from_geodetic, intersect, to_geodetic, vertical

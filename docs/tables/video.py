@@ -17,7 +17,8 @@ from formation import (
 )
 from insar.observe.agile.video import video
 from insar.observe.agile.video_claims import judge_video
-from insar.observe.agile.video_results import VideoRequest, VideoResult
+from insar.observe.agile.video_request import VideoRequest
+from insar.observe.agile.video_results import VideoResult
 
 from .markdown import DOCS, PUBLISHED, markdown_table
 from .verdicts import verdict_table

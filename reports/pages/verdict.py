@@ -1,16 +1,12 @@
-"""The verdict: the result in one paragraph and four figures."""
+"""The verdict on a formation: the result in a few sentences, and what holds it back."""
 
 from __future__ import annotations
-
-import math
-
-import numpy as np
 
 from insar.simulation import Verdict
 from optimize import Assessment, EvaluateResult, OptimizeResult, Problem, noise_excess
 
 from ..certificate_words import verdict_text
-from ..document import Block, Callout, Metric, Metrics, Status, Strong, Text
+from ..document import Block, Callout, Status, Strong, Text
 from ..reading import (
     active,
     broken,
@@ -20,7 +16,7 @@ from ..reading import (
     shares,
     unmeasured_reason,
 )
-from ..refutation_words import VERDICTS, bits, finding, worst_of
+from ..refutation_words import VERDICTS, finding, worst_of
 from ..wording import (
     counted,
     fixed,
@@ -34,8 +30,8 @@ from ..wording import (
     source_name,
 )
 from .claims import claims_text
+from .key_figures import key_figures, seen_segments
 from .limits import shortfall_text
-from .refutation import STATUS
 
 INPUTS = "inputs of this study"
 """What printed figures of a mission are compared with."""
@@ -79,7 +75,7 @@ def optimize_verdict(result: OptimizeResult, unseen: int = 0) -> tuple[Block, ..
     if status is Status.GOOD and doubtful:
         status = Status.WARNING
     status, title = _unless_refuted(best, status, title)
-    return Callout(status, title, tuple(paragraphs)), _metrics(result.problem, best, unseen)
+    return Callout(status, title, tuple(paragraphs)), key_figures(result.problem, best, unseen)
 
 
 def evaluate_verdict(result: EvaluateResult, unseen: int = 0) -> tuple[Block, ...]:
@@ -103,7 +99,7 @@ def evaluate_verdict(result: EvaluateResult, unseen: int = 0) -> tuple[Block, ..
     if status is Status.GOOD and (unseen > 0 or _doubtful(result.problem, formation)):
         status = Status.WARNING
     status, title = _unless_refuted(formation, status, title)
-    return Callout(status, title, tuple(paragraphs)), _metrics(result.problem, formation, unseen)
+    return Callout(status, title, tuple(paragraphs)), key_figures(result.problem, formation, unseen)
 
 
 def _unless_refuted(formation: Assessment, status: Status, title: str) -> tuple[Status, str]:
@@ -129,19 +125,13 @@ def _refutation(formation: Assessment) -> list[Text]:
 
 def _title(formation: Assessment, unseen: int) -> str:
     title = f"Height error {meters(float(formation.height_error.region))}"
-    return f"{title} over {_seen(formation, unseen)}" if unseen else title
-
-
-def _seen(formation: Assessment, unseen: int) -> str:
-    """How many of all targets a height error is of."""
-    seen = formation.height_error.total.size
-    return f"{seen} of {counted(seen + unseen, 'target')}"
+    return f"{title} over {seen_segments(formation, unseen)}" if unseen else title
 
 
 def _achieved(formation: Assessment, unseen: int) -> tuple[str, ...]:
     error = formation.height_error
     scene = (
-        f"{_seen(formation, unseen)}, those that the pass sees"
+        f"{seen_segments(formation, unseen)}, those that the pass sees"
         if unseen
         else f"{counted(error.total.size, 'segment')} of the scene"
     )
@@ -273,47 +263,3 @@ def _doubtful(problem: Problem, formation: Assessment) -> bool:
         unwrapping is not None and float(unwrapping.probability.min()) < _DOUBTFUL_PROBABILITY
     )
     return improbable or (decorrelation_neglected(problem) and incoherent_pairs(formation) > 0)
-
-
-def _metrics(problem: Problem, formation: Assessment, unseen: int) -> Metrics:
-    error, unwrapping = formation.height_error, formation.unwrapping
-    reason = unmeasured_reason(formation)
-    over = f"over {_seen(formation, unseen)}" if unseen else "of the scene"
-    items = [
-        Metric("Height error", meters(float(error.region)), reason or f"total, RMS {over}"),
-    ]
-    if reason is None:
-        relative = meters(float(error.relative_region))
-        items.append(Metric("Relative error", relative, "from pixel to pixel"))
-    if unwrapping is not None and reason is None:
-        required = problem.constraints.min_unwrapping_probability
-        value = float(unwrapping.probability.min())
-        remark = "probability"
-        if required is not None:
-            remark += f", at least {required:.6g}"
-        items.append(Metric("Unwrapping", probability(value), remark))
-    if formation.refutation is not None:
-        verdict = formation.refutation.verdict
-        gained = bits(worst_of(formation.refutation.segments).bits)
-        items.append(
-            Metric(
-                "Simulation", VERDICTS[verdict], f"gains {gained} over the prior", STATUS[verdict]
-            )
-        )
-    separations = np.empty(0) if formation.motion is None else formation.motion.separations
-    separation = float(separations.min()) if separations.size else math.nan
-    if math.isfinite(separation):
-        items.append(Metric("Closest approach", meters(separation), "any two, at any time"))
-    count, kept = len(formation.constraints), len(formation.constraints) - len(broken(formation))
-    if count:
-        status = Status.GOOD if kept == count else Status.BAD
-        items.append(Metric("Limits kept", f"{kept} of {count}", _closest(formation), status))
-    return Metrics(tuple(items))
-
-
-def _closest(formation: Assessment) -> str:
-    failed = broken(formation)
-    if failed:
-        return f"broken: {joined([report.limit.name for report in failed])}"
-    at_limit = sum(active(report) for report in formation.constraints)
-    return f"{at_limit} active" if at_limit else "none active"

@@ -8,7 +8,8 @@ from collections.abc import Sequence
 import numpy as np
 import pandas as pd
 
-from insar.observe.agile.video_results import VideoResult, YawLaw
+from insar.observe.agile.video_request import YawLaw
+from insar.observe.agile.video_results import VideoResult
 
 from ..agile_words import heading_name, side_name
 from ..document import Block, Column, Figure, Paragraph, Section, Table

@@ -22,14 +22,13 @@ from .staring import StaringScene, staring_scene
 from .video_attitude import hold, staring_profile
 from .video_footprint import distortion, footprint_map, footprints, pointing_effect
 from .video_frames import LONGEST, cut_frames, effective_speed, frame_length
+from .video_request import VideoRequest, YawLaw
 from .video_results import (
     Distortion,
     Footprints,
     LawSummary,
     Staring,
-    VideoRequest,
     VideoResult,
-    YawLaw,
 )
 from .video_warnings import warnings_of
 from .video_yaw import Beam, Held

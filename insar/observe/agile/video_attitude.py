@@ -20,7 +20,8 @@ from .profiles import Outcomes, Pointed, Profile, profile_of
 from .rotations import EulerSequence
 from .smooth_orbit import SmoothOrbit
 from .turning import inertial_rate, moving_shortest_turn, orbit_frame
-from .video_results import Staring, YawLaw
+from .video_request import YawLaw
+from .video_results import Staring
 from .video_yaw import X_DIRECTIONS, Beam, Held, ground_map, major_axis, sight_of
 
 Array = NDArray[np.float64]

@@ -21,7 +21,8 @@ from ..vectors import dot, safe_arcsin, unit
 from .plans import PassPlan
 from .smooth_orbit import SmoothOrbit
 from .spotlight_plan import aim_point
-from .video_results import FrameModel, Frames, VideoRequest
+from .video_request import VideoRequest
+from .video_results import FrameModel, Frames
 
 Array = NDArray[np.float64]
 

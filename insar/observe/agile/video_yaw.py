@@ -16,7 +16,7 @@ from formation import States
 from ..frames import EARTH_ROTATION
 from ..vectors import dot, rotate, safe_arccos, unit
 from .turning import OrbitFrame, path_in_orbit_frame
-from .video_results import YawLaw
+from .video_request import YawLaw
 
 Array = NDArray[np.float64]
 
