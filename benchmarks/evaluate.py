@@ -1,16 +1,17 @@
-"""Formations scored per second: against the batch, against N, by stage, and against a plain loop.
+"""Formations scored per second: against batch, N and segments, in arrays and compiled.
 
     python benchmarks/evaluate.py [--quick]
 
-1. `Problem.evaluate` (10 segments, every limit of the realistic study) against the size of the
-   batch, for three satellites.
-2. The same against the number N of satellites at a fixed batch, for four error models, with the
-   growth exponent: the slope of log time over log N for the larger half of the N.
-3. The stages of one evaluation, each timed on the ready results of the one before.
-4. The compiled loops, where numba is installed: on one thread against the array form and against
-   straight-line code by hand for three satellites (`straight_line.py`), an upper bound of what the
-   machine can do; and against N.
-5. The peer: Li 2009 eqs (5)-(9) as a reader of the paper would write them with NumPy, one formation
+1. The shipped model (10 segments, every limit of the realistic study) against the size of the
+   batch, for three satellites: `Problem.evaluate`, and the compiled loops where numba is installed.
+2. The same against the number of segments.
+3. Against the number N of satellites at a fixed batch, for five error models, with the growth
+   exponent: the slope of log time over log N for the larger half of the N.
+4. Beside a bound of what the machine can do, straight-line code by hand for three satellites
+   (`straight_line.py`), on one thread. All forms give the same numbers, which is checked.
+5. Formations per second and core of the plain model.
+6. The stages of one evaluation in arrays, each timed on the ready results of the one before.
+7. The peer: Li 2009 eqs (5)-(9) as a reader of the paper would write them with NumPy, one formation
    at a time with an explicit R⁻¹, on the paper's problem. Both give the same errors to 1e-9, which
    is checked.
 
@@ -53,6 +54,7 @@ from insar import (
     unwrapping_ladder,
 )
 from optimize import Constraints, DesignSpace, Problem
+from optimize.kernel import compiled_evaluator
 
 Array = NDArray[np.float64]
 
@@ -67,12 +69,18 @@ PLAIN = dataclasses.replace(
     ErrorBudget.li2009(),
     azimuth=ErrorSource(1e-4, SharedBy.ALL),  # one angle for all
 )
-MODELS: dict[str, tuple[ErrorBudget, Constraints]] = {
-    "joint, filtered, unwrapping": (realistic_errors(), REALISTIC_LIMITS),
+Model = tuple[ErrorBudget, Constraints]
+MODELS: dict[str, Model] = {
+    "plain: pairs, no limits": (PLAIN, Constraints()),
+    "pairs, filtered": (PAIRS, NO_UNWRAPPING),
     "joint, filtered": (realistic_errors(), NO_UNWRAPPING),
     "joint, unfiltered": (UNFILTERED, NO_UNWRAPPING),
-    "pairs, filtered": (PAIRS, NO_UNWRAPPING),
+    "joint, filtered, unwrapping": (realistic_errors(), REALISTIC_LIMITS),
 }
+
+
+ONE_THREAD = 504
+"""Formations that the compiled loops leave to one thread."""
 
 
 def random_states(space: DesignSpace, count: int) -> Array:
@@ -92,32 +100,82 @@ def best_time(function: Callable[[], object], *, seconds: float) -> float:
     return min(times)
 
 
+def forms(problem: Problem, space: DesignSpace) -> dict[str, Callable[[Array], object]]:
+    """What scores designs: arrays, and compiled loops where numba is installed."""
+    found: dict[str, Callable[[Array], object]] = {
+        "arrays": lambda designs: problem.evaluate(space.states(designs))
+    }
+    evaluator = compiled_evaluator(problem, space)
+    if evaluator is not None:
+        found["compiled"] = evaluator.evaluate
+    return found
+
+
+def random_designs(space: DesignSpace, count: int) -> Array:
+    """Designs drawn evenly from the box."""
+    rng = np.random.default_rng(0)
+    return rng.uniform(-space.upper, space.upper, size=(count, space.dimension))
+
+
+def each(form: Callable[[Array], object], designs: Array, *, seconds: float) -> float:
+    """CPU time of a formation [µs]."""
+    return 1e6 * best_time(lambda: form(designs), seconds=seconds) / len(designs)
+
+
+def _table(title: str, head: Sequence[int], rows: dict[str, list[float]]) -> None:
+    print(f"\n{title}: µs per formation")
+    print(f"{'':>40}", *(f"{count:>9}" for count in head))
+    for label, times in rows.items():
+        print(
+            f"{label:>40}",
+            *(f"{time:9.{3 if time < 1 else 2 if time < 10 else 1}f}" for time in times),
+        )
+
+
 def against_batch(sizes: Sequence[int], *, seconds: float) -> None:
-    print("\nBatch size, 3 satellites (joint, filtered, unwrapping)")
-    print(f"{'batch':>7} {'µs/formation':>13} {'formations/s':>13} {'× one by one':>13}")
     problem, space = realistic_problem(3)
-    alone = np.nan
-    for size in sizes:
-        states = random_states(space, size)
-        each = best_time(lambda: problem.evaluate(states), seconds=seconds) / size  # noqa: B023
-        alone = each if size == sizes[0] else alone
-        print(f"{size:7} {each * 1e6:13.1f} {1.0 / each:13,.0f} {alone / each:13.1f}")
+    rows = {
+        name: [each(form, random_designs(space, size), seconds=seconds) for size in sizes]
+        for name, form in forms(problem, space).items()
+    }
+    _table("Batch, 3 satellites (joint, filtered, unwrapping)", sizes, rows)
 
 
-def against_satellites(counts: Sequence[int], *, batch: int, seconds: float) -> None:
-    print(f"\nNumber of satellites, batch of {batch}: µs per formation")
-    print(f"{'N':>30}", *(f"{count:>8}" for count in counts), " exponent")
+def against_segments(counts: Sequence[int], *, batch: int, seconds: float) -> None:
+    rows: dict[str, list[float]] = {}
+    for count in counts:
+        problem, space = realistic_problem(3, segments=count)
+        for name, form in forms(problem, space).items():
+            rows.setdefault(name, []).append(
+                each(form, random_designs(space, batch), seconds=seconds)
+            )
+    _table(f"Segments, 3 satellites, batch of {batch}", counts, rows)
+
+
+def against_satellites(counts: Sequence[int], *, seconds: float) -> None:
+    rows: dict[str, list[float]] = {}
+    batch = {"arrays": 16, "compiled": 256}
     for label, (errors, limits) in MODELS.items():
-        each = []
         for count in counts:
             problem, space = realistic_problem(count, errors=errors, constraints=limits)
-            states = random_states(space, batch)
-            one = best_time(lambda: problem.evaluate(states), seconds=seconds)  # noqa: B023
-            each.append(one / batch)
-        half = len(counts) // 2
-        slope = np.polyfit(np.log(counts[half:]), np.log(each[half:]), 1)[0]
-        print(f"{label:>30}", *(f"{time * 1e6:8.1f}" for time in each), f" N^{slope:.1f}")
-    print(f"{'':>30} exponent from N = {counts[half]} to {counts[-1]}")
+            for name, form in forms(problem, space).items():
+                time = each(form, random_designs(space, batch[name]), seconds=seconds)
+                rows.setdefault(f"{label}, {name}", []).append(time)
+    _table("Satellites, batch of 16 in arrays and 256 compiled", counts, rows)
+    half = len(counts) // 2
+    print(f"growth from N = {counts[half]} to {counts[-1]}")
+    for label, times in rows.items():
+        slope = np.polyfit(np.log(counts[half:]), np.log(times[half:]), 1)[0]
+        print(f"{label:>40} N^{slope:.1f}")
+
+
+def per_core(*, seconds: float) -> None:
+    """Formations of the plain model in a second of CPU time, in batches that keep one thread."""
+    problem, space = paper_problem(3, errors=PLAIN, constraints=Constraints())
+    print("\nPlain model, 3 satellites: million formations per second and core")
+    for name, form in forms(problem, space).items():
+        time = each(form, random_designs(space, ONE_THREAD), seconds=seconds)
+        print(f"{name:>40} {1.0 / time:9.2f}")
 
 
 def stages(problem: Problem, states: Array) -> dict[str, Callable[[], object]]:
@@ -157,17 +215,16 @@ def by_stage(cases: Sequence[tuple[int, int]], *, seconds: float) -> None:
 # -- compiled ------------------------------------------------------------------------------------
 
 
-def compiled_and_bound(*, batch: int, seconds: float) -> None:
+def compiled_and_bound(*, seconds: float) -> None:
     """Array form, compiled loops and the straight line by hand, on both models, N = 3."""
     try:
         from straight_line import hand_written
     except ImportError:
         print("\nnumba is not installed: no compiled form (pip install 'formation-opt[fast]')")
         return
-    from optimize.kernel import compiled_evaluator
-
+    batch = ONE_THREAD
     print(f"\nCompiled, 3 satellites, batch of {batch}, one thread: µs per formation")
-    print(f"{'':>30} {'arrays':>9} {'compiled':>9} {'by hand':>9} {'of bound':>9}")
+    print(f"{'':>30} {'arrays':>9} {'compiled':>9} {'by hand':>9} {'speed':>9}")
     cases = {
         "plain: pairs, no limits": paper_problem(3, errors=PLAIN, constraints=Constraints()),
         "joint, filtered, unwrapping": realistic_problem(3),
@@ -183,43 +240,18 @@ def compiled_and_bound(*, batch: int, seconds: float) -> None:
         known = problem.evaluate(states).objectives
         np.testing.assert_allclose(evaluator.evaluate(designs).objectives, known, rtol=1e-12)
         np.testing.assert_allclose(straight(designs), known, rtol=1e-9)
-        part = 256  # keeps one thread
         arrays, loops, line = (
-            best_time(lambda c=call: c(), seconds=seconds) / size  # type: ignore[misc]
-            for call, size in (
-                (lambda: problem.evaluate(states[:1024]), 1024),  # noqa: B023
-                (lambda: [evaluator.evaluate(d) for d in np.split(designs, batch // part)], batch),  # noqa: B023
-                (lambda: straight(designs), batch),  # noqa: B023
+            best_time(call, seconds=seconds) / batch
+            for call in (
+                lambda: problem.evaluate(states),  # noqa: B023
+                lambda: evaluator.evaluate(designs),  # noqa: B023
+                lambda: straight(designs),  # noqa: B023
             )
         )
         print(
             f"{label:>30} {arrays * 1e6:9.2f} {loops * 1e6:9.3f} {line * 1e6:9.3f} "
             f"{line / loops:9.0%}"
         )
-
-
-def compiled_against_satellites(counts: Sequence[int], *, batch: int, seconds: float) -> None:
-    from optimize.kernel import compiled_evaluator
-
-    print(f"\nCompiled against N, batch of {batch}, one thread: µs per formation")
-    print(f"{'N':>30}", *(f"{count:>8}" for count in counts), " exponent")
-    models = {"plain: pairs, no limits": (PLAIN, Constraints()), **MODELS}
-    for label, (errors, limits) in models.items():
-        each = []
-        for count in counts:
-            problem, space = realistic_problem(count, errors=errors, constraints=limits)
-            evaluator = compiled_evaluator(problem, space)
-            if evaluator is None:
-                break
-            rng = np.random.default_rng(0)
-            designs = rng.uniform(-space.upper, space.upper, size=(batch, space.dimension))
-            each.append(best_time(lambda: evaluator.evaluate(designs), seconds=seconds) / batch)  # noqa: B023
-        if len(each) < len(counts):
-            print(f"{label:>30} {'not known to the compiled loops':>40}")
-            continue
-        half = len(counts) // 2
-        slope = np.polyfit(np.log(counts[half:]), np.log(each[half:]), 1)[0]
-        print(f"{label:>30}", *(f"{time * 1e6:8.2f}" for time in each), f" N^{slope:.1f}")
 
 
 # -- the peer ------------------------------------------------------------------------------------
@@ -281,13 +313,12 @@ def main() -> None:
     parser.add_argument("--quick", action="store_true", help="few and short repetitions, in 20 s")
     quick = parser.parse_args().quick
     seconds = 0.05 if quick else 0.5
-    powers = [1, 4, 16, 60, 256, 1024, 4096]
-    against_batch(powers, seconds=seconds)
-    against_satellites(
-        [2, 3, 4, 8, 16, 32] if quick else [2, 3, 4, 8, 16, 32, 64], batch=20, seconds=seconds
-    )
-    compiled_and_bound(batch=4096, seconds=seconds)
-    compiled_against_satellites([2, 3, 4, 8, 16, 32, 64], batch=20, seconds=seconds)
+    against_batch([1, 4, 16, 60, 256, 1024, 4096], seconds=seconds)
+    against_segments([1, 3, 10, 30, 100], batch=256, seconds=seconds)
+    counts = [2, 3, 4, 8, 16, 32] if quick else [2, 3, 4, 8, 16, 32, 64]
+    against_satellites(counts, seconds=seconds / 2.0)
+    compiled_and_bound(seconds=seconds)
+    per_core(seconds=seconds)
     by_stage([(3, 60), (3, 1024), (16, 60)], seconds=seconds)
     against_plain_loop([3, 4, 8], batch=256, seconds=seconds)
 

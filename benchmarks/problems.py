@@ -59,17 +59,19 @@ def realistic_problem(
     *,
     errors: ErrorBudget | None = None,
     constraints: Constraints = REALISTIC_LIMITS,
+    segments: int = 10,
 ) -> tuple[Problem, DesignSpace]:
-    """X band, 10 segments at broadside, 1 mm, filtering, joint weighting, unwrapping from 4 m.
+    """X band, broadside, 1 mm, filtering, joint weighting, unwrapping from 4 m.
 
     Parameters
     ----------
     satellites : number N of satellites.
     errors : another error budget than the realistic one.
     constraints : the limits.
+    segments : number S of segments of the 10 s.
     """
     scene = Scene.broadside_strip(
-        times=np.linspace(0.0, 10.0, 10),
+        times=np.linspace(0.0, 10.0, segments),
         look_angle=np.deg2rad(23),
         altitude=514e3,
         earth_radius=6_378_137.0,

@@ -22,8 +22,11 @@ from .scatter import Scatter, scatter_of
 
 Array = NDArray[np.float64]
 
-_CHUNK = 100_000
+_CHUNK = 150_000
 """Elements of matrices of all images, over formations and segments, that a pass works on."""
+
+_LEAST_CHUNK = 16
+"""Formations of a pass below which the calls take more time than the cache saves."""
 
 
 class Evaluation(NamedTuple):
@@ -122,7 +125,7 @@ class Problem:
     @property
     def _chunk(self) -> int:
         """Formations of one pass, so that a matrix for each segment stays in the cache."""
-        return max(1, _CHUNK // (len(self.scene) * len(self.radar.images) ** 2))
+        return max(_LEAST_CHUNK, _CHUNK // (len(self.scene) * len(self.radar.images) ** 2))
 
     def region_error(self, population: Population) -> Array:
         """Region height error, without what each segment and each source adds.

@@ -226,6 +226,41 @@ def test_a_long_search_is_scored_by_the_loops(monkeypatch):
     assert compiled.objective == pytest.approx(arrays.objective, rel=1e-6)
 
 
+@pytest.mark.parametrize("azimuth_resolution", [None, 3.0])
+def test_sets_of_images_and_cells_of_the_spectrum_are_two_ways_to_one_sum(
+    monkeypatch, azimuth_resolution
+):
+    problem, space = example(5)
+    radar = dataclasses.replace(problem.radar, azimuth_resolution=azimuth_resolution)
+    problem = dataclasses.replace(problem, radar=radar)
+    designs = np.random.default_rng(1).uniform(-space.upper, space.upper, (50, space.dimension))
+    by_sets = compiled_evaluator(problem, space).objectives_and_margins(designs)
+    monkeypatch.setattr("optimize.kernel.constants.MOST_IMAGES", 0)
+    by_cells = compiled_evaluator(problem, space).objectives_and_margins(designs)
+    np.testing.assert_allclose(by_sets[0], by_cells[0], rtol=1e-11)
+    np.testing.assert_allclose(by_sets[1], by_cells[1], rtol=1e-8, atol=1e-8)
+
+
+def test_functions_of_eight_numbers():
+    import numba
+    from scipy.special import erfc
+
+    from optimize.kernel.functions import complementary_error, fast_exponential
+    from optimize.kernel.lanes import keep, lanes
+
+    @numba.njit
+    def both(source, target, count):
+        for i in range(count):
+            keep(target, 2 * i, complementary_error(lanes(source, i)))
+            keep(target, 2 * i + 1, fast_exponential(lanes(source, i) * -8.0))
+
+    x = np.concatenate([[0.0], np.linspace(1e-9, 8.5, 799)])
+    found = np.empty((100, 2, 8))
+    both(x.ctypes.data, found.ctypes.data, 100)
+    np.testing.assert_allclose(found[:, 0].ravel(), erfc(x), rtol=5e-14)
+    np.testing.assert_allclose(found[:, 1].ravel(), np.exp(-8.0 * x), rtol=2e-15)
+
+
 def test_without_numba_there_is_no_compiled_form():
     code = (
         "import sys; sys.modules['numba'] = None\n"
