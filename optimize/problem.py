@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
@@ -111,8 +112,8 @@ class Problem:
             of the design, the worst of them is not.
         """
         state = np.asarray(states, dtype=np.float64)
-        size = self._chunk
-        parts = [self._scored(state[at : at + size]) for at in range(0, max(len(state), 1), size)]
+        passes = max(1, math.ceil(len(state) / self._chunk))
+        parts = [self._scored(part) for part in np.array_split(state, passes)]
         if len(parts) == 1:
             return parts[0]
         regions, margins = zip(*parts, strict=True)
