@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,66 +20,53 @@ class FilteredWeights:
     ----------
     radar : for its images and looks.
     strength : (M,) — u_i = γ_i²/(1 − γ_i²) of each image.
-    offsets : (M, N − 1) — band offsets of the images relative to the first, per gap [bandwidths].
     """
 
     radar: Radar
     strength: Array
-    offsets: Array
 
-    def weights(self, least: Array, most: Array, among: tuple[int, ...] | None = None) -> Array:
+    def upper(self, low: Array, high: Array, among: tuple[int, ...] | None = None) -> Array:
         """2L u_i u_j ∫ df/(1 + U) over the common band, U the sum of u over who sees it.
 
-        With images sorted by offset, all that lie between i and j see their whole common band. The
-        integral falls with o_j − o_i, and grows as the others move away: so it is largest at
-        corners of the box that are known. `among` names images that see a part of the azimuth
-        band; the weight of others is zero.
+        An image k that lies between i and j sees their whole common band; one that lies R above
+        both leaves R of it at the one end, one that lies below at the other. The integral grows
+        with the common band, and with all that others leave of it.
+
+        Parameters
+        ----------
+        low, high : (n, K) — bounds of o_j − o_i of each pair [bandwidths].
+        among : images that see a part of the azimuth band; the weight of others is zero.
+
+        Returns
+        -------
+        (n, K) — [1/rad²].
         """
-        first, second = self.radar.image_pairs.T
-        weight = self.strength
-        common = np.maximum(0.0, 1.0 - least)
-        sequence = self.sequence
-        if sequence is None:  # no common order: count on nobody else
-            seen = 1.0 + weight[first] + weight[second]
-            alone = 2.0 * self.radar.looks * weight[first] * weight[second] / seen * common
-            if among is None:
-                return np.asarray(alone)
-            return np.where(np.isin(first, among) & np.isin(second, among), alone, 0.0)
-        if among is not None:
-            sequence = tuple(k for k in sequence if k in among)
-        pair = self.pair_index
-        result = np.zeros_like(least)
-        for a, i in enumerate(sequence):
-            for b, j in enumerate(sequence[a + 1 :], start=a + 1):
-                column = pair[i, j]
-                start = np.minimum(least[:, column], 1.0)
-                right = [(np.clip(most[:, pair[i, k]], start, 1.0), k) for k in sequence[b + 1 :]]
-                left = [(np.clip(1.0 - most[:, pair[i, k]], start, 1.0), k) for k in sequence[:a]]
-                seen = 1.0 + weight[list(sequence[: b + 1])].sum()
-                integral = _staircase(
-                    start,
-                    seen,
-                    [(edge, weight[k]) for edge, k in right]
-                    + [(edge, -weight[k]) for edge, k in left],
-                )
-                result[:, column] = 2.0 * self.radar.looks * weight[i] * weight[j] * integral
+        weight, pairs = self.strength, self.radar.image_pairs
+        some = range(len(weight)) if among is None else among
+        # o_j − o_i of any two images is at most:
+        above = np.zeros((len(weight), len(weight), len(low)))
+        above[pairs[:, 0], pairs[:, 1]], above[pairs[:, 1], pairs[:, 0]] = high.T, -low.T
+        result = np.zeros_like(low)
+        for column, (i, j) in enumerate(pairs):
+            if i not in some or j not in some:
+                continue
+            start = np.clip(np.maximum(low[:, column], -high[:, column]), 0.0, 1.0)
+            level, steps = 1.0 + weight[i] + weight[j], []
+            for k in some:
+                if k in (i, j):
+                    continue
+                begin = start + np.maximum(0.0, np.minimum(above[i, k], above[j, k]))
+                begin = np.minimum(begin, 1.0)
+                end = 1.0 - np.maximum(0.0, np.minimum(above[k, i], above[k, j]))
+                if np.all(begin == start):
+                    level += weight[k]
+                else:
+                    steps.append((begin, weight[k]))
+                if np.any(end < 1.0):
+                    steps.append((np.maximum(end, begin), -weight[k]))
+            integral = _staircase(start, level, steps)
+            result[:, column] = 2.0 * self.radar.looks * weight[i] * weight[j] * integral
         return result
-
-    @cached_property
-    def pair_index(self) -> NDArray[np.intp]:
-        """Index of the pair of each two images, (M, M)."""
-        count = len(self.radar.images)
-        index = np.zeros((count, count), dtype=np.intp)
-        first, second = self.radar.image_pairs.T
-        index[first, second] = index[second, first] = np.arange(len(first))
-        return index
-
-    @cached_property
-    def sequence(self) -> tuple[int, ...] | None:
-        """Images by increasing offset, where that order is the same in every box."""
-        order = np.argsort(self.offsets.sum(axis=-1), kind="stable")
-        steps = np.diff(self.offsets[order], axis=0)
-        return tuple(order.tolist()) if np.all(steps >= 0.0) else None
 
 
 def _staircase(start: Array, level: float, steps: list[tuple[Array, float]]) -> Array:

@@ -72,7 +72,8 @@ class InformationBound:
         -------
         One for each interval of the azimuth spread; every formation falls into one of them.
         """
-        least, most = self._shifts(lower, upper)
+        low, high = self._differences(lower, upper)
+        least, most = np.maximum(0.0, np.maximum(low, -high)), np.maximum(high, -low)
         decorrelation = self.errors.baseline_decorrelation
         if self.errors.weighting is Weighting.PAIRS:
             return self._alone(self._laplacian(self._pair_weights(least)))
@@ -83,18 +84,22 @@ class InformationBound:
         if unfiltered:
             return self._alone(self._unfiltered(least, most))
         if decorrelation is BaselineDecorrelation.NONE:
-            least, most = np.zeros_like(least), np.zeros_like(most)
+            low = high = least = most = np.zeros_like(least)
             shifted = False
-        weights = self._filtered.weights(least, most)
+        weights = self._filtered.upper(low, high)
         if not shifted or not self._lessened:
             return self._alone(self._laplacian(weights * self._efficiency(least, most)))
         if len(self.radar.images) > _MAX_PARTED:
             # Where a third image is missing, the weight of a pair rises: only the Cramér-Rao
             # bound is sure.
             return self._alone(self._laplacian(weights))
-        return self._parted(least, most, weights)
+        groups = {group for groups in partitions(len(self.radar.images)) for group in groups}
+        of_group = {group: self._filtered.upper(low, high, group) for group in groups}
+        return self._parted(least, most, weights, of_group)
 
-    def _parted(self, least: Array, most: Array, weights: Array) -> tuple[BoxInformation, ...]:
+    def _parted(
+        self, least: Array, most: Array, weights: Array, of_group: dict[tuple[int, ...], Array]
+    ) -> tuple[BoxInformation, ...]:
         """By the spread D = max d − min d of the azimuth bands d.
 
         Frequencies a whole bandwidth apart taken together, each image sees each of them once. The
@@ -104,12 +109,8 @@ class InformationBound:
         that its looks, at least 1 − D of those that it has in range, bound. Of a pair that shares
         next to nothing in azimuth, less than `_REMNANT`, any part of next to nothing may be left.
         """
-        whole = tuple(range(len(self.radar.images)))
-        of_group = {
-            group: self._filtered.weights(least, most, group)
-            for group in {group for groups in partitions(len(whole)) for group in groups}
-        }
-        parted = [sum(of_group[group] for group in groups) for groups in partitions(len(whole))]
+        ways = partitions(len(self.radar.images))
+        parted = [sum(of_group[group] for group in groups) for groups in ways]
         largest = np.max([weights, *of_group.values()], axis=0)
         cases = []
         for start, end in pairwise(_SPREADS):
@@ -147,14 +148,11 @@ class InformationBound:
         ]
         return np.asarray(np.minimum(1.0, np.maximum(*ends) * (1.0 + _TABLE)))
 
-    def _shifts(self, lower: Array, upper: Array) -> tuple[Array, Array]:
-        """Least and largest |o_j − o_i| of each pair over the boxes, (n, K) each."""
+    def _differences(self, lower: Array, upper: Array) -> tuple[Array, Array]:
+        """Least and largest o_j − o_i of each pair over the boxes, (n, K) each."""
         positive = np.maximum(self._pair_offsets, 0.0).T
         negative = np.minimum(self._pair_offsets, 0.0).T
-        low = lower @ positive + upper @ negative
-        high = upper @ positive + lower @ negative
-        least = np.maximum(0.0, np.maximum(low, -high))
-        return least, np.maximum(np.abs(low), np.abs(high))
+        return lower @ positive + upper @ negative, upper @ positive + lower @ negative
 
     def _pair_weights(self, least: Array) -> Array:
         """Of independent pairs: each falls with the shift of its bands."""
@@ -254,7 +252,7 @@ class InformationBound:
 
     @cached_property
     def _filtered(self) -> FilteredWeights:
-        return FilteredWeights(radar=self.radar, strength=self._phase_weight, offsets=self.offsets)
+        return FilteredWeights(radar=self.radar, strength=self._phase_weight)
 
     @cached_property
     def _amplitude(self) -> Array:
