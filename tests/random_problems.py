@@ -40,7 +40,8 @@ def random_scene(rng: np.random.Generator, segments: int) -> Scene:
         times=strip.times,
         slant_range=strip.slant_range * rng.uniform(1.0, 1.05, segments),
         look_angle=strip.look_angle,
-        azimuth=strip.azimuth + np.deg2rad(rng.uniform(-8.0, 8.0)),
+        azimuth=strip.azimuth
+        + np.deg2rad(rng.uniform(-8.0, 8.0) + rng.uniform(-4.0, 4.0, segments)),
         incidence=strip.incidence,
     )
 

@@ -27,7 +27,12 @@ from insar import (
     unwrapping_ladder,
     unwrapping_probability,
 )
-from insar.unwrapping import bootstrap_failure, float_covariance, success_ceiling
+from insar.unwrapping import (
+    bootstrap_failure,
+    float_covariance,
+    noise_covariance,
+    success_ceiling,
+)
 
 SCENE = Scene.broadside_strip(
     times=[0.0], look_angle=np.deg2rad(23), altitude=514e3, earth_radius=6_378_137.0
@@ -317,3 +322,14 @@ def test_drawing_needs_samples():
     result = decorrelated_unwrapping(model, prior_height_std=4.0)
     with pytest.raises(ValueError, match="samples = 0"):
         try_unwrapping(model, result, prior_height_std=4.0, samples=0, rng=np.random.default_rng(1))
+
+
+def test_images_that_share_nothing_with_the_first_are_no_singular_matrix():
+    # Two images that know much of one another: 1e-12 more on the diagonal is lost to rounding.
+    information = np.zeros((1, 3, 3))
+    information[0, 1:, 1:] = 2.0**20 * np.array([[1.0, -1.0], [-1.0, 1.0]])
+    with pytest.raises(np.linalg.LinAlgError):
+        np.linalg.inv(information[:, 1:, 1:] + 1e-12 * np.eye(2))
+    covariance = noise_covariance(information)
+    assert np.all(np.isfinite(covariance))
+    assert covariance[0, 1, 1] > 1e6  # all but unknown against the first

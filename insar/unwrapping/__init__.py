@@ -2,7 +2,7 @@
 
 from .decorrelation import Decorrelation, decorrelate, decorrelated_unwrapping, success_ceiling
 from .drawing import UnwrappingTrial, try_unwrapping
-from .float_covariance import float_covariance
+from .float_covariance import float_covariance, noise_covariance
 from .ladder import (
     UnwrappingLadder,
     bootstrap_failure,
@@ -19,6 +19,7 @@ __all__ = [
     "decorrelate",
     "decorrelated_unwrapping",
     "float_covariance",
+    "noise_covariance",
     "success_ceiling",
     "try_unwrapping",
     "two_baseline_probability",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -15,6 +15,7 @@ from ..design_space import DesignSpace
 from ..problem import Problem
 from ..projection import plane_radius
 from .infeasible import infeasibility, packing_proof
+from .joint import joint_bound
 from .orders import MAX_ORDERS, order_count, relevant_satellites, satellite_classes
 from .packing import scatter_support
 from .projected import ProjectedBound, projected_bound
@@ -32,6 +33,9 @@ Array = NDArray[np.float64]
 
 _MAX_GAPS = 4
 """Gaps between satellites up to which a branch and bound is tried."""
+
+_MAX_JOINT_GAPS = 2
+"""Gaps up to which a loose bound is followed by that of one formation for all segments."""
 
 _ROUNDING = 1e-9
 """Part by which a bound is lowered, for the rounding of its arithmetic."""
@@ -82,7 +86,8 @@ def certify(
     points = np.stack([z0, rate / space.mean_motion], axis=-1)
     signs = tuple(dict.fromkeys(space.signs))
     bounds = [*_convex_bounds(problem, space, signs, points)]
-    trees, reason = _trees(problem, space, signs, points if feasible else None, settings)
+    start = points if feasible else None
+    trees, reason = _trees(problem, space, signs, start, objective, settings)
     value = min((tree.value for tree in trees), default=math.nan)
     blocked: Infeasibility | None = None
     if trees and math.isinf(value):
@@ -95,7 +100,7 @@ def certify(
     return Certificate(
         objective=objective,
         bounds=tuple(bounds),
-        assumptions=_assumptions(problem, bool(trees)),
+        assumptions=_assumptions(problem, trees),
         convergence=None if leading is None else leading.convergence,
         boxes=sum(tree.boxes for tree in trees),
         infeasibility=blocked,
@@ -107,6 +112,7 @@ def _trees(
     space: DesignSpace,
     signs: tuple[int, ...],
     points: Array | None,
+    objective: float,
     settings: CertificateSettings,
 ) -> tuple[list[ProjectedBound], str]:
     """A branch and bound for each sign, or why there is none."""
@@ -123,9 +129,26 @@ def _trees(
             space,
             sign=sign,
             start=points,
+            known=objective,
             tolerance=settings.tolerance,
             max_boxes=settings.max_boxes,
         )
+        # Without a design to compare with, only where segments differ.
+        loose = (
+            objective > tree.value * (1.0 + 2.0 * settings.tolerance)
+            if math.isfinite(objective)
+            else math.isfinite(tree.value) and len(tree.groups) > 1
+        )
+        if gaps <= _MAX_JOINT_GAPS and loose:
+            tree = joint_bound(
+                problem,
+                space,
+                tree,
+                start=points,
+                known=objective,
+                tolerance=settings.tolerance,
+                max_boxes=settings.max_boxes,
+            )
         trees.append(tree)
     return trees, ""
 
@@ -188,11 +211,17 @@ def _one_shot(problem: Reduction, scatter: Array) -> float:
     return max(bound, problem.tangent_bound(other, support.upper))
 
 
-def _assumptions(problem: Problem, exhausted: bool) -> tuple[str, ...]:
+def _assumptions(problem: Problem, trees: Sequence[ProjectedBound]) -> tuple[str, ...]:
     """What the bounds leave out, each of which makes them looser and never wrong."""
     notes = []
-    if exhausted:
-        if problem.errors.azimuth.std > 0.0:
+    if trees:
+        together = all(tree.joint is not None for tree in trees)
+        if together:
+            notes.append(
+                "The branch and bound takes one formation for all segments, with its azimuth error "
+                "and its separations."
+            )
+        elif problem.errors.azimuth.std > 0.0:
             notes.append(
                 "The branch and bound leaves the azimuth error and the separation out: both can "
                 "only make a formation worse."
@@ -206,7 +235,7 @@ def _assumptions(problem: Problem, exhausted: bool) -> tuple[str, ...]:
                 "Volume and time make the coherence matrix general; the phases are taken to be "
                 "known as well as if the signal were known without noise."
             )
-        if len(problem.scene) > 1:
+        if len(problem.scene) > 1 and not together:
             notes.append(
                 "It gives every segment of the scene its own best formation: no single one does "
                 "better in all of them."

@@ -95,13 +95,14 @@ def infeasibility(
     """
     limits = problem.constraints
     segments = sorted({int(index) + 1 for index in trees[0].blocked})
-    where = (
-        "every segment"
-        if len(segments) == len(problem.scene)
-        else (
-            f"segment {segments[0]}" if len(segments) == 1 else f"{len(segments)} of the segments"
-        )
-    )
+    if not segments:
+        where = "all segments at once"
+    elif len(segments) == len(problem.scene):
+        where = "every segment"
+    elif len(segments) == 1:
+        where = f"segment {segments[0]}"
+    else:
+        where = f"{len(segments)} of the segments"
     parts = [f"no {space.satellites} satellites"]
     if limits.max_radius is not None:
         parts.append(f"within a radius of {limits.max_radius:.4g} m")

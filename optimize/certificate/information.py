@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from insar import BaselineDecorrelation, ErrorBudget, PhaseStatistics, Radar, Weighting
 from insar.phase_information import pair_phase_variance
 from insar.phase_noise import pair_efficiency
+from insar.statistics import efficiency_curves
 
 from .filtered import FilteredWeights
 from .parted import BoxInformation, partitions
@@ -142,8 +143,9 @@ class InformationBound:
         """
         if not self._lessened:
             return np.ones_like(least)
+        curves = efficiency_curves(self._pair_coherence)
         ends = [
-            pair_efficiency(self._pair_coherence, self.radar.looks * np.maximum(0.0, band))
+            curves(self.radar.looks * np.maximum(0.0, band))
             for band in (1.0 - least, (1.0 - most) * left)
         ]
         return np.asarray(np.minimum(1.0, np.maximum(*ends) * (1.0 + _TABLE)))

@@ -7,8 +7,11 @@ from collections.abc import Iterator
 from itertools import permutations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from insar import ErrorBudget, Radar
+
+Array = NDArray[np.float64]
 
 MAX_ORDERS = 400
 """Orders above which a branch and bound is not tried."""
@@ -112,3 +115,31 @@ def order_signature(order: tuple[int, ...], radar: Radar, errors: ErrorBudget) -
     """
     of = dict(zip(relevant_satellites(radar), satellite_classes(radar, errors), strict=True))
     return tuple(of[satellite] for satellite in order)
+
+
+def known_gaps(
+    coordinates: Array, radar: Radar, errors: ErrorBudget, sequences: list[tuple[int, ...]]
+) -> list[tuple[int, Array]]:
+    """A formation as gaps, in the order that stands for its own.
+
+    Parameters
+    ----------
+    coordinates : (N,) or (N, C) — of the satellites; sorted by the first.
+    radar, errors : what the phases tell.
+    sequences : orders of the satellites.
+
+    Returns
+    -------
+    (index of the order, (N − 1,) or (N − 1, C)) — one, or none.
+    """
+    first = coordinates if coordinates.ndim == 1 else coordinates[:, 0]
+    order = sorted(sorted(sequences[0]), key=lambda satellite: first[satellite])
+    gaps = np.diff(coordinates[order], axis=0)
+    signature = order_signature(tuple(order), radar, errors)
+    for index, sequence in enumerate(sequences):
+        candidate = order_signature(sequence, radar, errors)
+        if candidate == signature:
+            return [(index, gaps)]
+        if candidate == signature[::-1]:
+            return [(index, gaps[::-1])]
+    return []

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -15,17 +17,17 @@ from insar.height import common_height_errors
 from ..design_space import DesignSpace
 from ..problem import Problem
 from ..projection import Projection, plane_radius, projection
-from .orders import is_palindrome, order_signature, orders
+from .orders import is_palindrome, known_gaps, orders
 from .result import Convergence
-from .segment import SegmentModel, gap_matrix
+from .segment import Boxes, SegmentModel, gap_matrix
 from .tree import Limits, TreeResult, explore
 
 Array = NDArray[np.float64]
 
-_ROUNDING = 1e-8
+ROUNDING = 1e-8
 """Slack, in parts, that the bounds leave for the rounding of limits and arithmetic."""
 
-_ALIKE = 1e-6
+ALIKE = 1e-6
 """Amplitudes that differ by no more count as one."""
 
 _MAX_GROUPS = 12
@@ -60,6 +62,7 @@ class ProjectedBound(NamedTuple):
     orders : the orders of the satellites that were tried.
     groups : the groups of segments.
     trees : the tree of each.
+    joint : the tree of all segments with one formation, where there is one.
     """
 
     sign: int
@@ -68,15 +71,17 @@ class ProjectedBound(NamedTuple):
     orders: tuple[tuple[int, ...], ...]
     groups: tuple[SegmentGroup, ...]
     trees: tuple[TreeResult, ...]
+    joint: TreeResult | None = None
 
     @property
     def boxes(self) -> int:
         """Boxes bounded."""
-        return sum(tree.boxes for tree in self.trees)
+        together = 0 if self.joint is None else self.joint.boxes
+        return together + sum(tree.boxes for tree in self.trees)
 
     @property
     def blocked(self) -> NDArray[np.intp]:
-        """0-based segments in which no formation is feasible."""
+        """0-based segments in which no formation is feasible; none if only in all at once."""
         return np.concatenate(
             [np.empty(0, dtype=np.intp)]
             + [
@@ -88,7 +93,10 @@ class ProjectedBound(NamedTuple):
 
     @property
     def convergence(self) -> Convergence:
-        """How the bound of the largest group of segments closed in."""
+        """How the bound of all segments, or of the largest group of them, closed in."""
+        if self.joint is not None:
+            history = self.joint.history
+            return Convergence(history[:, 0], np.sqrt(history[:, 1]), np.sqrt(history[:, 2]))
         largest = max(range(len(self.groups)), key=lambda i: len(self.groups[i].members))
         history = self.trees[largest].history
         return Convergence(history[:, 0], np.sqrt(history[:, 1]), np.sqrt(history[:, 2]))
@@ -100,6 +108,7 @@ def projected_bound(
     *,
     sign: int,
     start: Array | None,
+    known: float = math.inf,
     tolerance: float,
     max_boxes: int,
 ) -> ProjectedBound:
@@ -111,6 +120,7 @@ def projected_bound(
     space : the designs.
     sign : ±1 — of the cross-track motion.
     start : (N, 2) — points (z0, ż0/n) of a good formation, which saves boxes; None without [m].
+    known : scalar — region height error of a formation, of either sign [m].
     tolerance : relative distance of bound and best at which a tree is done.
     max_boxes : over all segments.
 
@@ -135,20 +145,24 @@ def projected_bound(
                 amplitude=group.amplitude,
                 alike=group.alike,
                 range_variance=group.range_variance,
-                prior_height_std=_prior(problem),
+                prior_height_std=prior_of(problem),
             )
             for order in sequences
         ]
-        known = []
+        points = []
         if start is not None:
             segment = group.members[0]
-            known = _known(start @ seen.height[segment] / reach[segment], problem, sequences)
+            points = known_gaps(
+                start @ seen.height[segment] / reach[segment], radar, errors, sequences
+            )
         trees.append(
             explore(
-                [model.bounds for model in models],
-                gaps=len(sequences[0]) - 1,
-                limits=_limits(problem, group, sequences, tolerance, max_boxes // len(groups)),
-                start=known,
+                [partial(_feasible, model, largest_failure(problem)) for model in models],
+                limits=replace(
+                    _limits(problem, group, sequences, tolerance, max_boxes // len(groups)),
+                    known=known**2 if len(groups) == 1 else math.inf,
+                ),
+                start=points,
             )
         )
     count = len(problem.scene)
@@ -157,7 +171,7 @@ def projected_bound(
     best = sum(s * tree.best for s, tree in zip(shares, trees, strict=True))
     return ProjectedBound(
         sign,
-        math.sqrt(value) * (1.0 - _ROUNDING),
+        math.sqrt(value) * (1.0 - ROUNDING),
         math.sqrt(best),
         tuple(sequences),
         tuple(groups),
@@ -165,7 +179,28 @@ def projected_bound(
     )
 
 
-def _prior(problem: Problem) -> float | None:
+def _feasible(model: SegmentModel, failure: float, boxes: Boxes, enough: float) -> Array:
+    return model.feasible_error(boxes, failure=failure, enough=enough)
+
+
+def largest_failure(problem: Problem) -> float:
+    """Largest probability that a cycle is wrong; one that overshoots by rounding still keeps it.
+
+    Parameters
+    ----------
+    problem : for its limits.
+    """
+    probability = problem.constraints.min_unwrapping_probability
+    return 1.0 if probability is None else (1.0 - probability) * (1.0 + ROUNDING)
+
+
+def prior_of(problem: Problem) -> float | None:
+    """Deviation of the height known beforehand, where phases need be unwrapped; else None [m].
+
+    Parameters
+    ----------
+    problem : for its limits.
+    """
     constraints = problem.constraints
     if constraints.min_unwrapping_probability is None:
         return None
@@ -178,7 +213,7 @@ def _reach(problem: Problem, space: DesignSpace, seen: Projection) -> Array:
         space, max_radius=problem.constraints.max_radius
     )
     of_box = np.abs(seen.height) @ [space.max_offset, space.max_rate / space.mean_motion]
-    return np.asarray(np.minimum(of_disc, of_box) * (1.0 + _ROUNDING))
+    return np.asarray(np.minimum(of_disc, of_box) * (1.0 + ROUNDING))
 
 
 def _groups(problem: Problem, seen: Projection, reach: Array) -> list[SegmentGroup]:
@@ -208,8 +243,8 @@ def _groups(problem: Problem, seen: Projection, reach: Array) -> list[SegmentGro
                 _range(wavenumber[members]),
                 _range(shift[members]),
                 float(amplitude[members].max()),
-                bool(np.ptp(every[members]) <= _ALIKE),
-                float(variance[members].min()) * (1.0 - _ROUNDING),
+                bool(np.ptp(every[members]) <= ALIKE),
+                float(variance[members].min()) * (1.0 - ROUNDING),
             )
         )
     return groups
@@ -227,7 +262,6 @@ def _limits(
     max_boxes: int,
 ) -> Limits:
     radar, constraints = problem.radar, problem.constraints
-    probability = constraints.min_unwrapping_probability
     fraction = constraints.max_baseline_fraction
     first, second = radar.image_pairs.T
     rows = []
@@ -241,32 +275,14 @@ def _limits(
                 one_sided = np.all(row >= 0.0) or np.all(row <= 0.0)
                 of_order.append(np.abs(row) * group.shifts[0] if one_sided else 0.0 * row)
         rows.append(np.array(of_order))
-    bounds = np.full(rows[0].shape[0], (fraction or 1.0) * (1.0 + _ROUNDING))
+    bounds = np.full(rows[0].shape[0], (fraction or 1.0) * (1.0 + ROUNDING))
     bounds[0] = 2.0
     return Limits(
-        # A failure that overshoots its limit by rounding still counts as feasible.
-        failure=1.0 if probability is None else (1.0 - probability) * (1.0 + _ROUNDING),
+        reach=np.full(rows[0].shape[-1], 2.0),
+        gaps=rows[0].shape[-1],
         rows=np.array(rows),
         bounds=bounds,
         mirrored=tuple(is_palindrome(order, radar, problem.errors) for order in sequences),
         tolerance=tolerance,
         max_boxes=max_boxes,
     )
-
-
-def _known(
-    coordinates: Array, problem: Problem, sequences: list[tuple[int, ...]]
-) -> list[tuple[int, Array]]:
-    """A formation as gaps, in the order that stands for its own."""
-    radar, errors = problem.radar, problem.errors
-    relevant = sorted(sequences[0])
-    order = sorted(relevant, key=lambda satellite: coordinates[satellite])
-    gaps = np.diff(coordinates[order])
-    signature = order_signature(tuple(order), radar, errors)
-    for index, sequence in enumerate(sequences):
-        candidate = order_signature(sequence, radar, errors)
-        if candidate == signature:
-            return [(index, gaps)]
-        if candidate == signature[::-1]:
-            return [(index, gaps[::-1])]
-    return []

@@ -1,4 +1,4 @@
-"""Branch and bound over the projected baselines of one segment."""
+"""Branch and bound over the projected baselines of one segment, or of all."""
 
 from __future__ import annotations
 
@@ -9,12 +9,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .segment import BoxBounds, Boxes
+from .segment import Boxes
 
 Array = NDArray[np.float64]
-
-_CHUNK = 4096
-"""Boxes split at a time: large enough for NumPy, small enough not to split in vain."""
 
 
 class TreeResult(NamedTuple):
@@ -24,8 +21,9 @@ class TreeResult(NamedTuple):
     ----------
     squared_error : scalar — no formation has a smaller squared height error; `inf` if none is
         feasible [m²].
-    best : scalar — squared height error of the best formation met, by the same relaxed model [m²].
-    gaps : (N − 1,) — of that formation, in parts of the largest coordinate; None if none was met.
+    best : scalar — squared height error of the best formation met, by the same relaxed model, or
+        known beforehand [m²].
+    gaps : (G,) — its gaps and other coordinates, in parts of the largest; None if none was met.
     order : index of its order of satellites.
     boxes : bounded so far.
     complete : whether the bound is within the tolerance of `best`, or infeasibility is proved.
@@ -47,35 +45,43 @@ class Limits:
 
     Parameters
     ----------
-    failure : scalar — largest probability that a cycle is wrong.
-    rows, bounds : (orders, limits, N − 1), (limits,) — linear limits on the gaps, row·gaps ≤ bound,
-        with rows that are not negative.
+    reach : (G,) — largest magnitude of each coordinate.
+    gaps : number of coordinates, the first of all, that are gaps of sorted satellites and so not
+        negative.
+    rows, bounds : (orders, limits, G), (limits,) — linear limits on the gaps, row·gaps ≤ bound,
+        with rows that are not negative, and zero but for gaps.
     mirrored : for each order, whether a formation and its mirror image are equally good, so that
         one of them is enough.
     tolerance : relative distance of bound and best, of the error, at which the tree is done.
     max_boxes : after which it gives up, with a looser bound.
+    known : scalar — squared error of a formation that is known, and need not be met [m²].
+    chunk : boxes split at a time: enough for NumPy, few enough not to split in vain.
     """
 
-    failure: float
+    reach: Array
+    gaps: int
     rows: Array
     bounds: Array
     mirrored: tuple[bool, ...]
     tolerance: float
     max_boxes: int
+    known: float = np.inf
+    chunk: int = 4096
 
 
-Bounding = Callable[[Boxes], BoxBounds]
+Bounding = Callable[[Boxes, float], Array]
+"""Smallest squared error of boxes, (n,), `inf` where nothing is feasible; of a box that is not
+below a second argument, any lower bound that isn't either."""
 
 
 def explore(
-    bounding: list[Bounding], *, gaps: int, limits: Limits, start: list[tuple[int, Array]]
+    bounding: list[Bounding], *, limits: Limits, start: list[tuple[int, Array]]
 ) -> TreeResult:
     """Bound the squared height error from below over every formation within the limits.
 
     Parameters
     ----------
     bounding : bounds boxes, one for each order of the satellites.
-    gaps : number N − 1 of gaps.
     limits : of the formations and of the tree.
     start : formations known beforehand, as (order, gaps): the better they are, the fewer boxes.
 
@@ -86,8 +92,10 @@ def explore(
     tree = _Tree(bounding, limits)
     for order, point in start:
         tree.offer(order, point[None])
+    lowest = -limits.reach
+    lowest[: limits.gaps] = 0.0
     for order in range(len(bounding)):
-        tree.add(order, np.zeros((1, gaps)), np.full((1, gaps), 2.0))
+        tree.add(order, lowest[None], limits.reach[None], np.zeros(1))
     while tree.open and tree.count < limits.max_boxes:
         tree.split()
     return tree.result()
@@ -97,7 +105,7 @@ def explore(
 class _Tree:
     bounding: list[Bounding]
     limits: Limits
-    best: float = np.inf
+    best: float = field(init=False)
     gaps: Array | None = None
     best_order: int = 0
     count: int = 0
@@ -105,6 +113,7 @@ class _Tree:
     history: list[tuple[float, float, float]] = field(default_factory=list)
 
     def __post_init__(self) -> None:
+        self.best = self.limits.known
         width = self.limits.rows.shape[-1]
         self.order = np.empty(0, dtype=np.intp)
         self.lower, self.upper = np.empty((0, width)), np.empty((0, width))
@@ -121,10 +130,11 @@ class _Tree:
 
     def split(self) -> None:
         """Split the most promising boxes."""
-        chosen = np.argsort(self.bound, kind="stable")[:_CHUNK]
+        chosen = np.argsort(self.bound, kind="stable")[: self.limits.chunk]
         keep = np.ones(self.bound.size, dtype=bool)
         keep[chosen] = False
         order, lower, upper = self.order[chosen], self.lower[chosen], self.upper[chosen]
+        bound = self.bound[chosen]
         self._keep(keep)
         axis = np.argmax(upper - lower, axis=-1)
         row = np.arange(len(axis))
@@ -137,19 +147,20 @@ class _Tree:
                 int(index),
                 np.concatenate([lower[of], above[of]]),
                 np.concatenate([below[of], upper[of]]),
+                np.concatenate([bound[of], bound[of]]),
             )
         worthwhile = self.bound < self.threshold
         self._discard(self.bound[~worthwhile])
         self._keep(worthwhile)
         self.history.append((float(self.count), self._lower_bound(), self.best))
 
-    def add(self, order: int, lower: Array, upper: Array) -> None:
-        """Bound boxes and keep those that may hold a better formation."""
-        lower, upper = self._within(order, lower, upper)
+    def add(self, order: int, lower: Array, upper: Array, parent: Array) -> None:
+        """Bound boxes, parts of some with a bound, and keep those that may be worth it."""
+        lower, upper, parent = self._within(order, lower, upper, parent)
         if not len(lower):
             return
         self.count += len(lower)
-        squared = self.bounding[order](Boxes(lower, upper)).within(self.limits.failure)
+        squared = np.maximum(self.bounding[order](Boxes(lower, upper), self.threshold), parent)
         possible = squared < np.inf
         lower, upper, squared = lower[possible], upper[possible], squared[possible]
         if not len(lower):
@@ -170,7 +181,7 @@ class _Tree:
         points = points[within]
         if not len(points):
             return
-        squared = self.bounding[order](Boxes(points, points)).within(self.limits.failure)
+        squared = self.bounding[order](Boxes(points, points), self.best)
         index = int(np.argmin(squared))
         if squared[index] < self.best:
             self.best, self.gaps, self.best_order = float(squared[index]), points[index], order
@@ -189,17 +200,19 @@ class _Tree:
     def _lower_bound(self) -> float:
         return min(self.discarded, float(self.bound.min(initial=np.inf)))
 
-    def _within(self, order: int, lower: Array, upper: Array) -> tuple[Array, Array]:
+    def _within(
+        self, order: int, lower: Array, upper: Array, parent: Array
+    ) -> tuple[Array, Array, Array]:
         """Cut boxes back to the linear limits; drop those outside, and mirror images."""
         rows, bounds = self.limits.rows[order], self.limits.bounds
         spare = bounds - lower @ rows.T
         inside = np.all(spare >= 0.0, axis=-1)
         if self.limits.mirrored[order]:
-            inside &= upper[:, 0] >= lower[:, -1]
+            inside &= upper[:, 0] >= lower[:, self.limits.gaps - 1]
         lower, upper, spare = lower[inside], upper[inside], spare[inside]
         with np.errstate(divide="ignore"):
             room = np.where(rows > 0.0, spare[:, :, None] / rows, np.inf).min(axis=1)
-        return lower, np.minimum(upper, lower + room)
+        return lower, np.minimum(upper, lower + room), parent[inside]
 
     def _keep(self, which: NDArray[np.bool_]) -> None:
         self.order, self.bound = self.order[which], self.bound[which]

@@ -22,11 +22,9 @@ from numpy.typing import NDArray
 from scipy.special import erfc
 
 from insar import PhaseModel, unwrapping_ladder
+from insar.unwrapping import noise_covariance
 
 Array = NDArray[np.float64]
-
-_UNMEASURED_PRECISION = 1e-12
-"""As `insar.unwrapping` has it: 1e6 rad for an image that shares no band [1/rad²]."""
 
 
 class Slopes(NamedTuple):
@@ -86,9 +84,7 @@ def failure_slopes(model: PhaseModel, *, prior_height_std: float) -> tuple[Array
     ladder = unwrapping_ladder(model, prior_height_std=prior_height_std)
     kz, factor = model.vertical_wavenumber, _factor(model)
     segments, count = kz.shape
-    noise = model.information[:, 1:, 1:] + _UNMEASURED_PRECISION * np.eye(count - 1)
-    inverse = np.zeros_like(model.information)
-    inverse[:, 1:, 1:] = np.linalg.inv(noise)
+    inverse = noise_covariance(model.information)
     covariance = inverse + factor @ np.swapaxes(factor, -1, -2)
     covariance = covariance + prior_height_std**2 * kz[:, :, None] * kz[:, None, :]
     innovation = _innovations(ladder.pairs, covariance)
