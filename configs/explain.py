@@ -19,7 +19,7 @@ from .messages import (
     study_error,
 )
 from .reader import Document
-from .remedies import remedy
+from .remedies import in_known_unit, remedy
 from .schema import Schema, block_at, describe, resolve, schema_at
 
 MAX_FINDINGS = 5
@@ -67,10 +67,7 @@ def explain(
     ]
     # A misspelt key is one mistake, not an unknown key and a missing one.
     unknown = [mistake.path for mistake in mistakes if mistake.kind == "extra_forbidden"]
-    meant = {
-        (*path[:-1], closest(str(path[-1]), block_at(schema, path[:-1])))
-        for path in unknown[:MAX_FINDINGS]
-    }
+    meant = {(*path[:-1], _meant(path, document.data, schema)) for path in unknown[:MAX_FINDINGS]}
     mistakes = [m for m in mistakes if m.kind != "missing" or m.path not in meant]
     mistakes.sort(key=lambda mistake: mistake.place(document))
     findings = [
@@ -115,7 +112,7 @@ class _Mistake(NamedTuple):
             named = _assignment((*self.path, *self.context["at"]), document.data)
             return f"{named} {self.context['text']}; {self.context['remedy']}"
         if self.kind == "extra_forbidden":
-            return _unknown_key(self.path, schema)
+            return _unknown_key(self.path, document.data, schema)
         allowed = schema_at(schema, self.path)
         if self.kind == "missing":
             return _missing(self.path, allowed, schema)
@@ -171,14 +168,24 @@ def _assignment(path: KeyPath, data: Any) -> str:
     return f"{show_path(path)} = {show(value)}"
 
 
-def _unknown_key(path: KeyPath, schema: Schema) -> str:
+def _unknown_key(path: KeyPath, data: Any, schema: Schema) -> str:
     key, parent = str(path[-1]), path[:-1]
     known = list(block_at(schema, parent))
     where = show_path(parent) if parent else "the study"
     homes = _homes(key, schema)
     named = " or ".join(repr(home) for home in homes)
+    converted = in_known_unit(key, _value(path, data), known)
     hint = f"it belongs under {named}; " if homes else did_you_mean(key, known)
+    if converted is not None:
+        hint = f"write {converted[0]}: {converted[1]:.6g}; "
     return f"{show_path(path)} is not a known key; {hint}the keys of {where} are {', '.join(known)}"
+
+
+def _meant(path: KeyPath, data: Any, schema: Schema) -> str | None:
+    """The known key that an unknown one stands for: in another unit, or misspelt."""
+    key, known = str(path[-1]), list(block_at(schema, path[:-1]))
+    converted = in_known_unit(key, _value(path, data), known)
+    return closest(key, known) if converted is None else converted[0]
 
 
 def _homes(key: str, schema: Schema) -> list[str]:

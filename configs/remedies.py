@@ -45,6 +45,39 @@ _GUESSES: dict[str, list[_Guess]] = {
 The first end that fits counts."""
 
 
+_UNITS = (
+    {"mm": 1e-3, "cm": 1e-2, "m": 1.0, "km": 1e3},
+    {"rad": 1.0, "mrad": 1e-3, "deg": math.pi / 180.0},
+    {"ms": 1e-3, "s": 1.0, "min": 60.0, "hours": 3600.0, "days": 86_400.0},
+    {"hz": 1.0, "khz": 1e3, "mhz": 1e6, "ghz": 1e9},
+)
+"""Units of one kind each, by the end of a key, in the first one's SI unit."""
+
+
+def in_known_unit(key: str, value: Any, known: list[str]) -> tuple[str, float] | None:
+    """The known key for a quantity that was given in another unit, and its value; None for none.
+
+    Parameters
+    ----------
+    key : that is not known, such as ``altitude_m``.
+    value : that was given for it.
+    known : keys of the block.
+    """
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        return None
+    stem, _, unit = key.rpartition("_")
+    for units in _UNITS:
+        if unit not in units:
+            continue
+        given = value * units[unit]
+        if "frequency" in stem and unit.endswith("hz") and "wavelength_m" in known and given > 0.0:
+            return "wavelength_m", _SPEED_OF_LIGHT / given
+        for other, scale in units.items():
+            if f"{stem}_{other}" in known:
+                return f"{stem}_{other}", given / scale
+    return None
+
+
 def remedy(value: Any, key: str, schema: Schema) -> str:
     """What to do about a value that its key does not allow.
 

@@ -57,6 +57,18 @@ IN_THREE_SAT = {
         "wavelenght_m",
         "radar.wavelenght_m is not a known key; did you mean 'wavelength_m'?",
     ),
+    "key in another unit": (
+        "altitude_km: 514 ",
+        "altitude_m: 514000 ",
+        "altitude_m: 514000",
+        "orbit.altitude_m is not a known key; write altitude_km: 514; the keys of orbit are ",
+    ),
+    "frequency for wavelength": (
+        "wavelength_m: 0.031",
+        "frequency_ghz: 9.65",
+        "frequency_ghz: 9.65",
+        "radar.frequency_ghz is not a known key; write wavelength_m: 0.0310666; the keys of ",
+    ),
     "key in the wrong block": (
         "    side: left",
         "    snr_db: 10.",
