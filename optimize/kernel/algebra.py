@@ -42,7 +42,7 @@ def solve(matrix, size, vector):
 def invert(matrix, size, inverse, column):
     """Lower triangle of the inverse of a matrix that is factorized."""
     for c in range(size):
-        keep(column, c, lanes(matrix, c * size + c) * 0.0 + 1.0)
+        keep(column, c, 1.0)
         for i in range(c + 1, size):
             total = lanes(matrix, i * size + c)
             for m in range(c + 1, i):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from .algebra import factorize, invert
 from .lanes import (
+    every,
     exponential,
     floor,
     integer,
@@ -30,7 +31,7 @@ def edges(k, r, s):
         _apart(k, r, s)
     elif k.decorrelation == NONE:
         for pair in range(k.pairs):
-            keep(r.edges, pair, number(k.steady, s * k.pairs + pair) + 0.0 * lanes(r.side, 0))
+            keep(r.edges, pair, number(k.steady, s * k.pairs + pair))
     elif k.decorrelation == UNFILTERED:
         _unfiltered(k, r, s)
     else:
@@ -95,10 +96,10 @@ def _apart(k, r, s):
     pair = 0
     for i in range(k.images):
         for j in range(i + 1, k.images):
-            area = 1.0 + 0.0 * lanes(r.side, 0)
+            area = every(1.0)
             if k.decorrelation != NONE:
                 area = overlap(k, r, i, j)
-            variance = number(k.pair_noise, s * k.pairs + pair) + 0.0 * area
+            variance = every(number(k.pair_noise, s * k.pairs + pair))
             if not k.given_noise and k.decorrelation == FILTERED:
                 variance = variance / area
                 if k.has_efficiency:
@@ -119,10 +120,9 @@ def _apart(k, r, s):
 def _unfiltered(k, r, s):
     """Joint information of images whose bands differ: −2L Γ∘Γ⁻¹ off the diagonal."""
     count = k.images
-    one = 1.0 + 0.0 * lanes(r.side, 0)
     pair = 0
     for i in range(count):
-        keep(r.matrix, i * count + i, one)
+        keep(r.matrix, i * count + i, 1.0)
         for j in range(i + 1, count):
             gamma = number(k.pair_coherence, s * k.pairs + pair) * overlap(k, r, i, j)
             keep(r.matrix, j * count + i, gamma)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import erfcx
 
-from .lanes import floor, jit, power_of_two, smaller
+from .lanes import every, floor, jit, power_of_two, smaller
 
 Array = NDArray[np.float64]
 
@@ -45,7 +45,7 @@ def _polynomial(coefficients, x):
     squared = x * x
     last = coefficients.size - 1
     even, odd = coefficients[last - 1], coefficients[last]
-    total_even, total_odd = squared * 0.0 + even, squared * 0.0 + odd
+    total_even, total_odd = every(even), every(odd)
     for order in range(last - 2, 0, -2):
         total_even = total_even * squared + coefficients[order - 1]
         total_odd = total_odd * squared + coefficients[order]

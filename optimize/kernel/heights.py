@@ -14,7 +14,7 @@ from __future__ import annotations
 import math
 
 from .algebra import factorize, solve
-from .lanes import jit, keep, lanes, larger, magnitude, number, where_less
+from .lanes import every, jit, keep, lanes, larger, magnitude, number, where_less
 
 _NOTHING = 1e-60
 _NO_WAVENUMBER = 1e-15
@@ -45,9 +45,8 @@ def _center(source, target, count):
 @jit
 def _laplacian(k, r, v, out):
     """X v of the Laplacian, without cancellation: Σ_j x_ij (v_i − v_j)."""
-    zero = lanes(v, 0) * 0.0
     for i in range(k.images):
-        keep(out, i, zero)
+        keep(out, i, 0.0)
     pair = 0
     for i in range(k.images):
         own, total = lanes(v, i), lanes(out, i)
@@ -86,7 +85,7 @@ def _alike_errors(k, r):
         rest = t / k.azimuth_factor
         information = rest * rest
     else:
-        information = lanes(r.kz, 0) * 0.0
+        information = every(0.0)
     for i in range(count):
         product = lanes(r.product, i)
         information += product * (lanes(r.height, i) + own * product)
@@ -97,9 +96,8 @@ def _alike_errors(k, r):
 def _alike_normal(k, r):
     """I + p²X, factorized."""
     count, own = k.images, k.own_variance
-    one = lanes(r.kz, 0) * 0.0 + 1.0
     for i in range(count):
-        keep(r.matrix, i * count + i, one)
+        keep(r.matrix, i * count + i, 1.0)
     pair = 0
     for i in range(count):
         diagonal = lanes(r.matrix, i * count + i)
@@ -123,7 +121,7 @@ def _any_errors(k, r):
     if k.azimuth_factor > 0.0:
         _residual(k, r, r.along, r.azimuth, r.joined)
         _laplacian(k, r, r.azimuth, r.product)
-        mixed, across = lanes(r.kz, 0) * 0.0, lanes(r.kz, 0) * 0.0
+        mixed, across = every(0.0), every(0.0)
         for i in range(count):
             mixed += lanes(r.height, i) * lanes(r.product, i)
             across += lanes(r.azimuth, i) * lanes(r.product, i)
@@ -138,7 +136,7 @@ def _any_errors(k, r):
         rest = t / k.azimuth_factor
         information = rest * rest
     else:
-        information = lanes(r.kz, 0) * 0.0
+        information = every(0.0)
     _laplacian(k, r, r.height, r.product)
     for i in range(count):
         information += lanes(r.height, i) * lanes(r.product, i)
@@ -151,9 +149,8 @@ def _any_errors(k, r):
 def _any_normal(k, r):
     """I + FᵀXF, factorized."""
     count, sources = k.images, k.sources
-    zero = lanes(r.kz, 0) * 0.0
     for element in range(count * sources):
-        keep(r.inverse, element, zero)
+        keep(r.inverse, element, 0.0)
     pair = 0
     for i in range(count):
         for j in range(i + 1, count):
@@ -166,7 +163,7 @@ def _any_normal(k, r):
             pair += 1
     for q in range(sources):
         for p in range(q + 1):
-            total = zero + (1.0 if p == q else 0.0)
+            total = every(1.0 if p == q else 0.0)
             for i in range(count):
                 total += number(k.factor, i * sources + q) * lanes(r.inverse, i * sources + p)
             keep(r.matrix, q * sources + p, total)

@@ -6,7 +6,7 @@ import math
 
 from .algebra import factorize, invert
 from .functions import complementary_error
-from .lanes import jit, keep, lanes, larger, number, root, smaller, where_equal, where_less
+from .lanes import every, jit, keep, lanes, larger, number, root, smaller, where_equal, where_less
 
 _TWO_PI = 2.0 * math.pi
 _UNMEASURED = 1e-12
@@ -24,9 +24,8 @@ def unwrapping_failure(k, r):
 def _noise_covariance(k, r):
     """Covariance of the phases relative to the first, by their noise: M − 1 rows."""
     last = k.images - 1
-    least = lanes(r.kz, 0) * 0.0 + _UNMEASURED
     for i in range(last):
-        keep(r.matrix, i * last + i, lanes(r.edges, i) + least)
+        keep(r.matrix, i * last + i, lanes(r.edges, i) + _UNMEASURED)
     pair = last
     for i in range(last):
         diagonal = lanes(r.matrix, i * last + i)
@@ -46,7 +45,7 @@ def _pair_variances(k, r):
     """Variances of the differences of two images, all errors counted; the largest of an image."""
     last, count = k.images - 1, k.images
     prior, azimuth = k.prior**2, k.azimuth_factor**2
-    largest = lanes(r.kz, 0) * 0.0
+    largest = every(0.0)
     for i in range(last):
         kz, along = prior * lanes(r.kz, i + 1), azimuth * lanes(r.along, i + 1)
         for j in range(i + 1):
@@ -69,11 +68,11 @@ def _pair_variances(k, r):
 def _climb(k, r, rounding):
     """Join the images, the pair that is known best first, each conditioned on those before."""
     count = k.images
-    failure = rounding * 0.0
+    failure = every(0.0)
     for i in range(count):
-        keep(r.joined, i, rounding * 0.0)
+        keep(r.joined, i, 0.0)
     for rung in range(count - 1):
-        smallest, first, second = rounding * 0.0 + math.inf, rounding * 0.0, rounding * 0.0
+        smallest, first, second = every(math.inf), every(0.0), every(0.0)
         pair = 0
         for i in range(count):
             for j in range(i + 1, count):
@@ -95,7 +94,7 @@ def _condition(k, r, first, second, scale):
     """Condition all pairs on one whose cycle is known; its second image goes with the first."""
     count = k.images
     for i in range(count):
-        keep(r.gain, i, scale * 0.0)
+        keep(r.gain, i, 0.0)
     pair = 0
     for i in range(count):
         own, here = lanes(r.gain, i), float(i)

@@ -100,6 +100,16 @@ def _place(builder, address, index, kind):
 
 
 @intrinsic
+def every(_context, value):
+    """The same number for all eight."""
+
+    def generate(_context, _builder, _signature, arguments):
+        return arguments[0]  # the conversion to the type of the signature has made it
+
+    return LANES(LANES), generate
+
+
+@intrinsic
 def lanes(_context, address, index):
     """The eight numbers at a place of an array of them."""
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 
-from .lanes import jit, lanes, number, where_less
+from .lanes import every, jit, lanes, number, where_less
 
 _NOTHING = 1e-60
 _NO_WAVENUMBER = 1e-15
@@ -23,7 +23,7 @@ def scatter_error(k, r):
     and AD − B² is det M times the square of k × c, which does not cancel.
     """
     zz, zy, yy, determinant = _scatter(k, r)
-    total = zz * 0.0
+    total = every(0.0)
     side, segments = lanes(r.side, 0), k.segments
     for s in range(segments):
         below, above, scale = 2 * s, 2 * (segments + s), number(k.per_height, s)
@@ -31,7 +31,7 @@ def scatter_error(k, r):
         k1 = scale * where_less(side, 0.0, number(k.height, below + 1), number(k.height, above + 1))
         own = k0 * k0 * zz + 2.0 * k0 * k1 * zy + k1 * k1 * yy
         beta = number(k.alike, s)
-        noise, signal = beta + own * 0.0, own
+        noise, signal = every(beta), own
         if k.azimuth_factor > 0.0:
             f = k.azimuth_factor
             c0 = f * where_less(side, 0.0, number(k.azimuth, below), number(k.azimuth, above))
@@ -58,13 +58,13 @@ def _scatter(k, r):
         z += lanes(r.center_radial, i)
         y += lanes(r.center_rate, i)
     z, y = z / float(k.images), y / float(k.images)
-    zz, zy = z * 0.0, z * 0.0
+    zz, zy = every(0.0), every(0.0)
     for i in range(k.images):
         radial, rate = lanes(r.center_radial, i) - z, lanes(r.center_rate, i) - y
         zz += radial * radial
         zy += radial * rate
     slope = where_less(0.0, zz, zy / zz, 0.0)
-    yy, rest = z * 0.0, z * 0.0
+    yy, rest = every(0.0), every(0.0)
     for i in range(k.images):
         radial, rate = lanes(r.center_radial, i) - z, lanes(r.center_rate, i) - y
         left = rate - slope * radial

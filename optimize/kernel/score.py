@@ -19,7 +19,20 @@ from .edges import edges
 from .fingerprint import fingerprint
 from .heights import mean_square
 from .ladder import unwrapping_failure
-from .lanes import WIDTH, integer, jit, keep, lanes, larger, number, put, record, root, where_less
+from .lanes import (
+    WIDTH,
+    every,
+    integer,
+    jit,
+    keep,
+    lanes,
+    larger,
+    number,
+    put,
+    record,
+    root,
+    where_less,
+)
 from .limits import baseline_fraction, box, radius, separation
 from .scatter import scatter_error
 
@@ -82,7 +95,7 @@ def _score_lanes(k, r, detailed):
     unwrapped = k.failure_limit < 0.0
     if unwrapped:
         limit, row = limit + 1, row + k.segments
-    total = lanes(r.side, 0) * 0.0
+    total = every(0.0)
     matrices = unwrapped or not k.scatter
     if not matrices:
         total = scatter_error(k, r)

@@ -16,6 +16,7 @@ from __future__ import annotations
 
 from .lanes import (
     WIDTH,
+    every,
     integer,
     jit,
     keep,
@@ -61,7 +62,7 @@ def by_sets(k, r, s):
     for pair in range(k.pairs):
         first = pair * shared
         one = number(coefficient, first) * lanes(area, integer(k.members, first))
-        two = one * 0.0
+        two = every(0.0)
         if shared > 1:
             two += number(coefficient, first + 1) * lanes(area, integer(k.members, first + 1))
         for t in range(first + 2, first + shared, 2):  # two sums, neither waits for the other
@@ -147,15 +148,14 @@ def _rank_ends(offset, lane, count, order, ends, low, high):
 def _range_integrals(k, r, s):
     """Cumulative ∫ df/(1 + U) at each end of the range axis."""
     places = 2 * k.images
-    zero = lanes(r.ends, 0) * 0.0
     for place in range(places):
-        keep(r.cells, place, zero)
+        keep(r.cells, place, 0.0)
     for i in range(k.images):
         weight = number(k.weight, s * k.images + i)
         for lane in range(WIDTH):
             _add(r.cells, integer(r.low, i * WIDTH + lane) * WIDTH + lane, weight)
             _add(r.cells, integer(r.high, i * WIDTH + lane) * WIDTH + lane, -weight)
-    seen, total = zero, zero
+    seen, total = every(0.0), every(0.0)
     for place in range(places):
         change = lanes(r.cells, place)
         keep(r.cells, place, total)
@@ -168,9 +168,8 @@ def _range_integrals(k, r, s):
 def _cell_integrals(k, r, s, dop_ends, dop_low, dop_high):
     """Cumulative ∬ df/(1 + U) over range and azimuth: element (a, b) from the origin to (a, b)."""
     places, table = 2 * k.images, r.cells
-    zero = lanes(r.ends, 0) * 0.0
     for place in range(places * places):
-        keep(table, place, zero)
+        keep(table, place, 0.0)
     for i in range(k.images):  # U by its differences at the corners of the rectangles
         weight = number(k.weight, s * k.images + i)
         for lane in range(WIDTH):
@@ -190,8 +189,8 @@ def _cell_integrals(k, r, s, dop_ends, dop_low, dop_high):
             area *= lanes(dop_ends, b) - lanes(dop_ends, b - 1)
             keep(table, a * places + b, area / (1.0 + lanes(table, (a - 1) * places + b - 1)))
     for place in range(places):
-        keep(table, place * places, zero)
-        keep(table, place, zero)
+        keep(table, place * places, 0.0)
+        keep(table, place, 0.0)
     _sum_up(table, places)
 
 
@@ -204,7 +203,7 @@ def _sum_up(table, places):
             keep(table, a * places, row + lanes(table, (a - 1) * places))
         for b in range(1, places):
             row += lanes(table, a * places + b)
-            above = lanes(table, (a - 1) * places + b) if a > 0 else row * 0.0
+            above = lanes(table, (a - 1) * places + b) if a > 0 else every(0.0)
             keep(table, a * places + b, row + above)
 
 
