@@ -1,7 +1,7 @@
 """Is the certificate sound, and how tight is it?
 
     python benchmarks/certificate.py soundness [problems]   random problems, feasible designs
-    python benchmarks/certificate.py tightness               N x family x model
+    python benchmarks/certificate.py tightness [model]       N x family x model
 
 `soundness` draws problems (two to eight satellites, both families, random radars, scenes, budgets
 and limits) until 100 000 feasible designs were compared with the bounds of their problem; none may
@@ -31,6 +31,7 @@ from insar import (
     ErrorBudget,
     ErrorSource,
     HeldConstant,
+    PhaseStatistics,
     Radar,
     Scene,
     SharedBy,
@@ -60,12 +61,12 @@ def best_of(problem, space, designs):
     return designs[np.lexsort((evaluation.objectives, evaluation.total_violation))[0]]
 
 
-def soundness(seed=20261128):
+def soundness(problems_wanted=PROBLEMS, seed=20261128):
     rng = np.random.default_rng(seed)
     compared = problems = proved = 0
     closest = np.inf
     began = time.perf_counter()
-    while compared < WANTED or problems < PROBLEMS:
+    while compared < WANTED or problems < int(problems_wanted):
         satellites = 2 + problems % 7
         problem, space = random_problem(rng, satellites)
         designs = random_designs(rng, problem, space, 4000)
@@ -125,6 +126,7 @@ def paper(satellites, family, decorrelation):
             azimuth=ErrorSource(2e-6, SharedBy.ALL),
             range=ErrorSource(0.01, SharedBy.ALL),
             baseline_decorrelation=decorrelation,
+            phase_statistics=PhaseStatistics.CRAMER_RAO,
             held_constant=HeldConstant.AZIMUTH,
         ),
         constraints=Constraints(max_radius=1211.2, min_separation=100.0),
@@ -159,10 +161,12 @@ def cases():
     yield "three_sat", 3, "space", problem, space
 
 
-def tightness():
+def tightness(only=""):
     print("| model | N | family | design [m] | bound [m] | gap [%] | method | seconds |")
     print("| --- | ---: | --- | ---: | ---: | ---: | --- | ---: |")
     for model, count, family, problem, space in cases():
+        if only not in ("", model):
+            continue
         starts = structured_designs(problem, space, count=4)
         design = best_of(
             problem, space, np.array([refined(problem, space, start) for start in starts])
@@ -178,4 +182,4 @@ def tightness():
 
 
 if __name__ == "__main__":
-    {"soundness": soundness, "tightness": tightness}[sys.argv[1]]()
+    {"soundness": soundness, "tightness": tightness}[sys.argv[1]](*sys.argv[2:])

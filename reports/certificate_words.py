@@ -13,6 +13,7 @@ METHODS = {
     Method.CLOSED_FORM: "largest scatter, closed form",
     Method.SEMIDEFINITE: "semidefinite program",
     Method.ONE_SHOT: "tangent at the design and the farthest scatter",
+    Method.SEPARABLE: "sum over single satellites along the line of the baselines",
     Method.BRANCH_AND_BOUND: "branch and bound over projected baselines",
 }
 

@@ -28,6 +28,7 @@ from .reduction import (
 )
 from .result import Certificate, Infeasibility, LowerBound, Method
 from .semidefinite import SolverError, best_scatter
+from .separable import separable_bound, why_not_separable
 
 Array = NDArray[np.float64]
 
@@ -36,6 +37,9 @@ _MAX_GAPS = 4
 
 _MAX_JOINT_GAPS = 2
 """Gaps up to which a loose bound is followed by that of one formation for all segments."""
+
+_FEW = 5
+"""Satellites from which on a sum over single ones is tried beside the branch and bound."""
 
 _ROUNDING = 1e-9
 """Part by which a bound is lowered, for the rounding of its arithmetic."""
@@ -95,6 +99,8 @@ def certify(
         value, reason = math.nan, "no formation is feasible"
     elif not feasible:
         blocked = packing_proof(problem, space)
+    if space.satellites >= _FEW or not trees:
+        bounds.append(_separable(problem, space, signs))
     bounds.append(LowerBound(Method.BRANCH_AND_BOUND, value, reason))
     leading = min(trees, key=lambda tree: tree.value) if trees else None
     return Certificate(
@@ -173,6 +179,14 @@ def _convex_bounds(
         _over_signs(Method.SEMIDEFINITE, problems, _semidefinite),
         _over_signs(Method.ONE_SHOT, problems, lambda one: _one_shot(one, scatter)),
     ]
+
+
+def _separable(problem: Problem, space: DesignSpace, signs: tuple[int, ...]) -> LowerBound:
+    reason = why_not_separable(problem)
+    if reason:
+        return LowerBound(Method.SEPARABLE, math.nan, reason)
+    squared = min(separable_bound(problem, space, sign=sign) for sign in signs)
+    return LowerBound(Method.SEPARABLE, math.sqrt(squared))
 
 
 def _over_signs(

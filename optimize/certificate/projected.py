@@ -129,7 +129,7 @@ def projected_bound(
     ProjectedBound
     """
     seen = projection(space, problem.scene, held_constant=problem.errors.held_constant, sign=sign)
-    reach = _reach(problem, space, seen)
+    reach = largest_coordinates(problem, space, seen)
     groups = _groups(problem, seen, reach)
     radar, errors = problem.radar, problem.errors
     sequences = list(orders(radar, errors))
@@ -207,8 +207,15 @@ def prior_of(problem: Problem) -> float | None:
     return constraints.prior_height_std
 
 
-def _reach(problem: Problem, space: DesignSpace, seen: Projection) -> Array:
-    """Largest coordinate |a·v| of a satellite in each segment, (S,) [m]."""
+def largest_coordinates(problem: Problem, space: DesignSpace, seen: Projection) -> Array:
+    """Largest coordinate |a·v| of a satellite in each segment, (S,) [m].
+
+    Parameters
+    ----------
+    problem : for its limit on the radius.
+    space : for its box.
+    seen : what the segments see of the plane.
+    """
     of_disc = np.linalg.norm(seen.height, axis=-1) * plane_radius(
         space, max_radius=problem.constraints.max_radius
     )

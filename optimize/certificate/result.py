@@ -21,6 +21,8 @@ class Method(StrEnum):
     """By a convex program over all scatter matrices."""
     ONE_SHOT = "one_shot"
     """From the tangent of the convex program at the design found, and how far it can be reached."""
+    SEPARABLE = "separable"
+    """From a sum over satellites that their information does not exceed."""
     BRANCH_AND_BOUND = "branch_and_bound"
     """By exhausting the projected baselines."""
 

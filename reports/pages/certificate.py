@@ -46,8 +46,8 @@ def certificate_section(result: OptimizeResult) -> Section:
             Figure(
                 certificate_figure(certificate),
                 "The proof: lower bound of the height error, and the best formation met, as the "
-                "boxes become smaller, for the largest group of like segments. Between the two "
-                "lies what is not known yet.",
+                "boxes become smaller, for all segments or, where each has a proof of its own, for "
+                "the largest group of like ones. Between the two lies what is not known yet.",
                 "Line chart of the lower bound and the best height error against the number of "
                 "boxes, closing in on each other.",
             )
