@@ -36,7 +36,7 @@ def certificate_figure(certificate: Certificate) -> bytes:
             color=color(0),
             drawstyle="steps-post",
             marker="o" if single else "",
-            label="best met, every segment on its own",
+            label="best met or known",
         )
         axes.plot(
             progress.boxes,
@@ -59,7 +59,12 @@ def certificate_figure(certificate: Certificate) -> bytes:
         plain_log_ticks(axes.xaxis, decades=float(decades))
         axes.set_xlabel("boxes of projected baselines looked at")
         axes.set_ylabel("height error [m]")
-        axes.set_ylim(bottom=0.0)
+        if np.nanmin(bound) < 0.5 * np.nanmax(best):
+            axes.set_ylim(bottom=0.0)
+        else:  # close from the start: from zero, nothing of the closing in would be seen
+            axes.set_ylim(
+                bottom=float(np.nanmin(bound) - 0.6 * np.ptp([np.nanmin(bound), np.nanmax(best)]))
+            )
         axes.legend(loc="lower right")
 
     return draw(paint, height=2.6)
