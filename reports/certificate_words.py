@@ -37,12 +37,15 @@ def is_close(certificate: Certificate) -> bool:
 def verdict_text(certificate: Certificate | None, reason: str) -> Text:
     """How far from the best possible the result is, in one sentence."""
     if certificate is None:
-        return f"How far it is from the best possible was not proved: {reason}."
+        return f"How far it is from the best possible is not proven: {reason}."
     if certificate.strongest is None:
         return "How far it is from the best possible is not known: no bound applies."
     bound = meters(certificate.lower_bound, 4)
     if not math.isfinite(certificate.gap):
-        return f"No formation within these limits has an error below {bound}, proven."
+        return (
+            f"No formation within these limits has an error below {bound}, proven; "
+            "whether there is one is not known."
+        )
     if is_close(certificate):
         return (
             Strong(f"Within {gap_text(certificate.gap)} of the best possible, proven: "),

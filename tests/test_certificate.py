@@ -36,7 +36,7 @@ from insar.phase_information import filtered_information
 from insar.phase_noise import lessen_information, pair_efficiency
 from optimize import Constraints, DesignSpace, Problem
 from optimize.certificate import CertificateSettings, Method, certify
-from optimize.certificate.infeasible import packing_proof
+from optimize.certificate.infeasible import infeasibility, packing_proof
 from optimize.certificate.information import InformationBound
 from optimize.certificate.joint import joint_model, seen_gaps
 from optimize.certificate.orders import known_gaps
@@ -46,7 +46,7 @@ from optimize.certificate.projected import projected_bound
 from optimize.certificate.realize import realize
 from optimize.certificate.reduction import reduction, scatter_of
 from optimize.certificate.segment import Boxes, PlaneBoxes, SegmentModel
-from optimize.certificate.separable import separable_bound, why_not_separable
+from optimize.certificate.separable import line_of_satellites, separable_bound, why_not_separable
 from optimize.projection import projection
 from optimize.refinement import refine
 from optimize.structured import structured_designs
@@ -301,6 +301,37 @@ def test_no_formation_is_better_than_the_sum_over_its_satellites(seed, satellite
     assert bound <= reached**2 * (1.0 + 1e-9)
 
 
+@pytest.mark.parametrize("edge", [1e-6, 0.05, 0.5, 0.77, 1.0, 1.37, 6.0, 20.0])
+def test_the_line_of_the_satellites_is_cut_at_every_end_of_a_band(edge):
+    line = line_of_satellites(edge, 1.0, math.inf)
+    assert_allclose(line.at[[0, -1]], [-1.0, 1.0], rtol=0.0)
+    assert np.all(np.diff(line.at) > 0.0)
+    # Over a cell an image loses one part of the band and gains one, at most.
+    change = np.diff(line.sees, axis=0) * (line.width > 1e-9)
+    assert np.all(np.sum(change < 0.0, axis=-1) <= 1)
+    assert np.all(np.sum(change > 0.0, axis=-1) <= 1)
+    assert_allclose(line.sees @ line.width, 1.0, atol=1e-8)
+    # However long the line is, there is memory for it.
+    assert line.sees.size < 400_000
+
+
+def test_satellites_that_may_stand_anywhere_are_not_summed_up():
+    problem, space = convex(6)
+    errors = dataclasses.replace(
+        problem.errors,
+        weighting=Weighting.JOINT,
+        baseline_decorrelation=BaselineDecorrelation.FILTERED,
+        phase_std=None,
+    )
+    anywhere = dataclasses.replace(problem, errors=errors, constraints=Constraints())
+    wide = dataclasses.replace(space, max_offset=1e6, max_rate=1e6 * space.mean_motion)
+    assert separable_bound(anywhere, wide, sign=1) == 0.0
+    proof = certify(anywhere, wide, design=np.ones(wide.dimension), settings=FEW)
+    (bound,) = [one for one in proof.bounds if one.method is Method.SEPARABLE]
+    assert math.isnan(bound.value)
+    assert "too far apart" in bound.reason
+
+
 # --- Tightness.
 
 
@@ -471,6 +502,23 @@ def test_more_satellites_than_fit_are_proved_impossible():
 
 
 # --- Infeasibility.
+
+
+def test_a_proof_names_every_limit_that_it_counts_on():
+    problem, space = example("three_sat")
+    limits = Constraints(max_radius=1350.0, min_separation=120.0, max_baseline_fraction=0.2)
+    limited = dataclasses.replace(problem, constraints=limits)
+    apart = projected_bound(limited, space, sign=1, start=None, tolerance=0.5, max_boxes=1)
+    shown = [
+        bound._replace(value=math.inf) for bound in (apart, apart._replace(joint=apart.trees[0]))
+    ]
+    of_each, together = (infeasibility(limited, space, [bound], 1).statement for bound in shown)
+    for limit in ("1350 m", "0.2 of the critical"):
+        assert limit in of_each
+        assert limit in together
+    # Segments on their own know nothing of how far apart satellites stand.
+    assert "120 m apart" in together
+    assert "apart" not in of_each
 
 
 def test_a_prior_that_is_too_coarse_is_proved_to_block():

@@ -99,7 +99,9 @@ def test_no_feasible_design_is_exit_3_with_a_report(study, tmp_path, capsys):
     tight = tight.replace(", unwrapping: {prior_height_std_m: 4}", "")
     out = tmp_path / "o"
     assert main([study(tight), "--out", str(out)]) == 3
-    error = capsys.readouterr().err
+    printed, error = capsys.readouterr()
+    assert "none, proven" in printed  # and no lower bound, as if there were formations above it
+    assert "no formation is below" not in printed
     assert "no feasible design was found" in error
     assert "separation of each pair at all times" in error
     assert "against a limit of 100 m" in error

@@ -107,7 +107,7 @@ def _warnings(search: WalkerSearch, task: SearchTask) -> tuple[str, ...]:
     if undecided:
         found.append(
             f"{undecided} patterns cover so narrowly that neither a gap nor its absence was "
-            "proved; they are not taken."
+            "proven; they are not taken."
         )
     return tuple(found)
 

@@ -66,9 +66,9 @@ def formation_summary(
             (f"{judgment.specification.name} at 90 %", (*elsewhere, _judged(judgment)))
             for judgment in dem.judgments
         ]
-    if certificate is not None and certificate.strongest is not None:
+    if certificate is not None and _says_something(certificate):
         elsewhere = ("",) * (len(shown) - 1)
-        rows.append(("no formation is below, proved", (*elsewhere, _proved(certificate))))
+        rows.append((_proven_of(certificate), (*elsewhere, _proven(certificate))))
     return Summary(tuple(a.label for a in shown), tuple(rows), warnings)
 
 
@@ -113,10 +113,22 @@ def _useless(shown: Sequence[Assessment]) -> tuple[str, ...]:
     )
 
 
-def _proved(certificate: Certificate) -> str:
+def _says_something(certificate: Certificate) -> bool:
+    return certificate.strongest is not None or certificate.infeasibility is not None
+
+
+def _proven_of(certificate: Certificate) -> str:
+    if certificate.infeasibility is not None:
+        return "formations within the limits"
+    return "no formation is below, proven"
+
+
+def _proven(certificate: Certificate) -> str:
+    if certificate.infeasibility is not None:
+        return "none, proven"
     bound = f"{certificate.lower_bound:.4f} m"
     if not np.isfinite(certificate.gap):
-        return bound
+        return f"{bound} (best: not feasible)"
     return f"{bound} (best: {100.0 * certificate.gap:.2g} % above)"
 
 

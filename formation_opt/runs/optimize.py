@@ -134,7 +134,7 @@ def _proof(certificate: Certificate) -> str:
         for relief in blocked.reliefs
         if np.isfinite(relief.passes_at)
     ]
-    text = f" Proved: {blocked.statement}"
+    text = f" Proven: {blocked.statement}"
     return f"{text} It would pass with: {', or '.join(helps)}." if helps else text
 
 

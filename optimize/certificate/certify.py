@@ -186,6 +186,10 @@ def _separable(problem: Problem, space: DesignSpace, signs: tuple[int, ...]) -> 
     if reason:
         return LowerBound(Method.SEPARABLE, math.nan, reason)
     squared = min(separable_bound(problem, space, sign=sign) for sign in signs)
+    if not squared > 0.0:
+        return LowerBound(
+            Method.SEPARABLE, math.nan, "the limits let satellites stand too far apart"
+        )
     return LowerBound(Method.SEPARABLE, math.sqrt(squared))
 
 

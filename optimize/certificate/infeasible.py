@@ -103,10 +103,7 @@ def infeasibility(
         where = f"segment {segments[0]}"
     else:
         where = f"{len(segments)} of the segments"
-    parts = [f"no {space.satellites} satellites"]
-    if limits.max_radius is not None:
-        parts.append(f"within a radius of {limits.max_radius:.4g} m")
-    statement = " ".join(parts)
+    statement = f"no {space.satellites} satellites{_within(limits, trees)}"
     if limits.min_unwrapping_probability is not None:
         statement += (
             f" can be unwrapped with a probability of {limits.min_unwrapping_probability:.6g} from "
@@ -122,6 +119,21 @@ def infeasibility(
             if (relief := _relief(problem, space, candidate, max_boxes)) is not None
         ),
     )
+
+
+def _within(limits: Constraints, trees: Sequence[ProjectedBound]) -> str:
+    """The limits on places that the proof counts on."""
+    parts = []
+    if limits.max_radius is not None:
+        parts.append(f"within a radius of {limits.max_radius:.4g} m")
+    if limits.min_separation is not None and any(tree.joint is not None for tree in trees):
+        parts.append(f"at least {limits.min_separation:.4g} m apart")
+    if limits.max_baseline_fraction is not None:
+        parts.append(
+            f"with perpendicular baselines of at most {limits.max_baseline_fraction:.4g} of the "
+            "critical one"
+        )
+    return (" " + ", ".join(parts)) if parts else ""
 
 
 _Candidate = tuple[str, str, float, Callable[[float], float], Callable[[float], Constraints]]

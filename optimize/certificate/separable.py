@@ -36,6 +36,13 @@ Array = NDArray[np.float64]
 _CELLS = 96
 """Cells of the line on which the satellites stand."""
 
+_LEAST_CELLS = 12
+"""Cells of a band, where that line is many bands long."""
+
+_FARTHEST = 20.0
+"""Bands between the middle of the line and its ends beyond which nothing is said: its parts are
+more than memory should hold, and satellites that may stand so far apart have no such limit."""
+
 _STEPS = 100
 """Steps of the search for the best c and θ."""
 
@@ -68,28 +75,36 @@ def separable_bound(problem: Problem, space: DesignSpace, *, sign: int) -> float
     problem : what is minimized, and within which limits; `why_not_separable` must be empty.
     space : the designs.
     sign : ±1 — of the cross-track motion.
+
+    Returns
+    -------
+    scalar [m²]; 0 where satellites can stand so many bands apart that nothing is said of them.
     """
     scene, radar, errors = problem.scene, problem.radar, problem.errors
     seen = projection(space, scene, held_constant=errors.held_constant, sign=sign)
     ways = 2.0 if radar.pursuit else 1.0
     reach = ways * largest_coordinates(problem, space, seen)
     edge = reach / scene_critical_baseline(scene, radar)
+    if edge.max() > _FARTHEST:
+        return 0.0
     wavenumber = 2.0 * np.pi / radar.wavelength * reach / seen.lever
     every = np.broadcast_to(
         image_amplitude(scene, radar=radar, errors=errors), (len(scene), len(radar.images))
     )
     common = common_height_errors(scene, radar=radar, errors=errors)
     variance = sum((part**2 for part in common.values()), start=np.zeros(len(scene)))
-    # Segments alike share a bound, with the most favorable of each property.
+    # Segments alike share a bound. At the farthest of them, edge E, stands who is at e·x/E of it:
+    # the offsets are the same, and heights turn the phase by wavenumber/e at a unit of them.
     label = np.round(np.log(np.stack([edge, wavenumber, every.max(axis=-1)])) / 2e-3)
     _, first, of = np.unique(label, axis=1, return_index=True, return_inverse=True)
     squared = np.zeros(len(scene))
     for index in range(len(first)):
         members = np.flatnonzero(of.ravel() == index)
+        farthest = float(edge[members].max())
         most = _most_information(
             problem,
-            edges=(float(edge[members].min()), float(edge[members].max())),
-            wavenumber=float(wavenumber[members].max()),
+            edge=farthest,
+            wavenumber=farthest * float((wavenumber / edge)[members].max()),
             amplitude=float(every[members].max()),
             alike=bool(np.ptp(every[members]) <= ALIKE),
         )
@@ -100,7 +115,7 @@ def separable_bound(problem: Problem, space: DesignSpace, *, sign: int) -> float
 def _most_information(
     problem: Problem,
     *,
-    edges: tuple[float, float],
+    edge: float,
     wavenumber: float,
     amplitude: float,
     alike: bool,
@@ -111,24 +126,24 @@ def _most_information(
     phase = 2.0 * radar.looks * weight * count * weight / (1.0 + count * weight)
     if errors.phase_statistics is PhaseStatistics.EXACT and alike:
         shifted = radar.azimuth_resolution is not None and not radar.pursuit
-        least = 0.0 if shifted else max(0.0, 1.0 - 2.0 * edges[1])
+        least = 0.0 if shifted else max(0.0, 1.0 - 2.0 * edge)
         ends = pair_efficiency(amplitude**2, radar.looks * np.array([1.0, least]))
         phase *= min(1.0, float(ends.max()) * (1.0 + _TABLE))
     shared = errors.position.shared_by is SharedBy.SATELLITE and errors.position.std > 0.0
     turn = 2.0 * np.pi / radar.wavelength * errors.position.std * (2.0 if radar.pursuit else 1.0)
-    line = _line(edges[0], phase, turn**-2 if shared else math.inf)
+    line = line_of_satellites(edge, phase, turn**-2 if shared else math.inf)
     most = max(_of_split(line, right, count - right) for right in range(count // 2 + 1))
     return most * wavenumber**2
 
 
-class _Line(NamedTuple):
+class SatelliteLine(NamedTuple):
     """The line of the satellites, from −1 to 1, in cells that no end of a band cuts.
 
     Attributes
     ----------
     at : (G + 1,) — ends of the cells.
     width : (F,) — widths of the parts of the ground band [bandwidths].
-    enters, leaves : (G,) — the part that an image of a cell leaves out, or gains, on its way.
+    lost, gained : (G,) — the part that an image leaves out, or gains, on its way through a cell.
     sees : (G + 1, F) — 1 where an image at the end of a cell sees a part.
     phase : scalar — weight of the noise.
     position : scalar — of the position error; `inf` without.
@@ -136,35 +151,45 @@ class _Line(NamedTuple):
 
     at: Array
     width: Array
-    enters: NDArray[np.intp]
-    leaves: NDArray[np.intp]
+    lost: NDArray[np.intp]
+    gained: NDArray[np.intp]
     sees: Array
     phase: float
     position: float
 
 
-def _line(edge: float, phase: float, position: float) -> _Line:
+def line_of_satellites(edge: float, phase: float, position: float) -> SatelliteLine:
+    """Cut the line where satellites stand into cells that no end of a band cuts.
+
+    Parameters
+    ----------
+    edge : scalar — how far its ends are from the middle [bandwidths].
+    phase, position : as in `SatelliteLine`.
+    """
     # All ends a whole band apart, so that both ends of a band cross one part of it at a time.
-    even = np.linspace(-edge, edge, _CELLS + 1)
+    of_band = max(_LEAST_CELLS, math.ceil(_CELLS / (2.0 * edge)))
+    number = math.floor(edge * of_band)
+    even = np.arange(-number, number + 1) / of_band
     shifts = np.arange(-math.ceil(2.0 * edge), math.ceil(2.0 * edge) + 1)
-    offset = np.unique(np.round((even[:, None] + shifts).ravel(), 10))
+    offset = np.concatenate([even, shifts + edge, shifts - edge])
+    offset = np.unique(np.round(offset, 10))
     offset = offset[np.abs(offset) < edge - 1e-9]
     offset = np.concatenate([[-edge], offset, [edge]])
     cuts = np.unique(np.round(np.concatenate([offset, offset + 1.0]), 10))
     middle = 0.5 * (cuts[1:] + cuts[:-1])
     sees = ((offset[:, None] < middle) & (middle < offset[:, None] + 1.0)).astype(np.float64)
-    return _Line(
+    return SatelliteLine(
         at=offset / edge,
         width=np.diff(cuts),
-        enters=np.searchsorted(cuts, offset[:-1] + 1e-9, side="right") - 1,
-        leaves=np.searchsorted(cuts, offset[:-1] + 1.0 + 1e-9, side="right") - 1,
+        lost=np.searchsorted(cuts, offset[:-1] + 1e-9, side="right") - 1,
+        gained=np.searchsorted(cuts, offset[:-1] + 1.0 + 1e-9, side="right") - 1,
         sees=sees,
         phase=phase,
         position=position,
     )
 
 
-def _of_split(line: _Line, right: int, left: int) -> float:
+def _of_split(line: SatelliteLine, right: int, left: int) -> float:
     """Bound with a number of satellites right of the middle, the others left of it."""
     onright = line.at >= 0.0
     measure = np.zeros(len(line.at))
@@ -183,7 +208,7 @@ def _of_split(line: _Line, right: int, left: int) -> float:
     return best
 
 
-def _centers(line: _Line, measure: Array) -> tuple[Array, float, float]:
+def _centers(line: SatelliteLine, measure: Array) -> tuple[Array, float, float]:
     """c(f), c' and θ that are best for a measure of the satellites."""
     seen = measure @ line.sees
     first = (measure * line.at) @ line.sees
@@ -197,7 +222,7 @@ def _centers(line: _Line, measure: Array) -> tuple[Array, float, float]:
     return center, mean, shared / (noise + shared) if noise + shared > 0.0 else 0.5
 
 
-def _single(line: _Line, center: Array, mean: float, share: float) -> tuple[Array, Array]:
+def _single(line: SatelliteLine, center: Array, mean: float, share: float) -> tuple[Array, Array]:
     """Φ at the ends of the cells, (G + 1,), and what it is at most at both sides of one, (2, G).
 
     Within a cell the middle of the band is convex in x, and the parts that leave and enter grow
@@ -209,10 +234,10 @@ def _single(line: _Line, center: Array, mean: float, share: float) -> tuple[Arra
     if share < 1.0:
         rest = (1.0 - share) ** 2 * line.position * (line.at - mean) ** 2
     value = noise * np.sum(line.sees * away, axis=-1) + rest
-    cell = np.arange(len(line.enters))
+    cell = np.arange(len(line.lost))
     before, after = value[:-1].copy(), value[1:].copy()
     # At the near end the part that is about to leave counts at its largest in the cell, and at
     # the far end the one that entered.
-    before += noise * np.maximum(0.0, away[cell + 1, line.enters] - away[cell, line.enters])
-    after += noise * np.maximum(0.0, away[cell, line.leaves] - away[cell + 1, line.leaves])
+    before += noise * np.maximum(0.0, away[cell + 1, line.lost] - away[cell, line.lost])
+    after += noise * np.maximum(0.0, away[cell, line.gained] - away[cell + 1, line.gained])
     return value, np.stack([before, after])

@@ -84,7 +84,7 @@ def _infeasible(proof: Infeasibility) -> list[Block]:
             (
                 Column("name", "Limit"),
                 Column("limit", "As it is", "", digits),
-                Column("blocks", "Proved to block to", "", digits),
+                Column("blocks", "Proven to block to", "", digits),
                 Column("passes", "A formation passes at", "", digits),
             ),
             "What would help, each limit relaxed alone.",

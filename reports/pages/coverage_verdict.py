@@ -117,7 +117,7 @@ def _in_band(one: Coverage, search: WalkerSearch | None) -> str:
     if inside.all():
         return ""
     if not inside.any():
-        return " None of these places lies in the band of the search, for which cover is proved."
+        return " None of these places lies in the band of the search, for which cover is proven."
     least = share_text(float(one.cover[inside].min()))
     return f" Within the band of the search it is {least}."
 
@@ -153,7 +153,7 @@ def _search(search: WalkerSearch) -> Text:
     return (
         "The smallest pattern searched with continuous cover is ",
         Strong(walker_name(search.best)),
-        f", proved for every longitude, latitude of the band and moment; {tried} were searched. "
+        f", proven for every longitude, latitude of the band and moment; {tried} were searched. "
         f"{bound}",
     )
 

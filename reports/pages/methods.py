@@ -137,7 +137,7 @@ def methods_section(
                 f"{_algorithm(search, cite)} It ranks by feasibility first {cite(_DEB)}; its best, "
                 "mutually distant designs, and structured ones (dumbbells and ladders), are then "
                 "refined by sequential quadratic programming (SLSQP). How far the result is from "
-                "the best possible is proved apart. Only differences of the satellites' positions "
+                "the best possible is proven apart. Only differences of the satellites' positions "
                 "enter: other formations with the same projected baselines are as good, so another "
                 "seed may return other orbits with the same error."
             )
