@@ -32,12 +32,15 @@ class Identity(NamedTuple):
     seed : of the random generator.
     inputs : file → hash of its contents.
     packages : package → version, the program among them.
+    compiled : whether compiled loops score the formations: they may be out of reach although numba
+        is installed, and arrays differ in the last digits.
     """
 
     study: Mapping[str, Any]
     seed: int
     inputs: Mapping[str, str]
     packages: Mapping[str, str]
+    compiled: bool
 
     def lines(self) -> list[str]:
         """As lines of text, for comparison."""
@@ -46,6 +49,7 @@ class Identity(NamedTuple):
             f"seed: {self.seed}",
             *(f"file {name}: sha256 {digest}" for name, digest in sorted(self.inputs.items())),
             *(f"version of {name}: {version}" for name, version in sorted(self.packages.items())),
+            f"formations scored by: {'compiled loops' if self.compiled else 'arrays'}",
         ]
 
 

@@ -112,8 +112,9 @@ def _execute(
     started, clock = datetime.now(UTC), time.perf_counter()
     checkpoints: list[Checkpoint] = []
 
-    def keeper(seed_used: int) -> Checkpoint:
-        checkpoints.append(Checkpoint(out, _identity(loaded, seed_used), resume=resume))
+    def keeper(seed_used: int, compiled: bool) -> Checkpoint:
+        identity = _identity(loaded, seed_used, compiled=compiled)
+        checkpoints.append(Checkpoint(out, identity, resume=resume))
         return checkpoints[-1]
 
     with terminal.progress(seed=seed, quiet=quiet, should_stop=should_stop) as options:
@@ -172,12 +173,13 @@ def _provenance(outcome: Outcome, command: str, started: datetime, *, seconds: f
     )
 
 
-def _identity(loaded: LoadedStudy, seed: int) -> Identity:
+def _identity(loaded: LoadedStudy, seed: int, *, compiled: bool) -> Identity:
     return Identity(
         study=loaded.study.model_dump(mode="json"),
         seed=seed,
         inputs={file.name: file.sha256 for file in loaded.files},
         packages={"formation-opt": provenance.program()} | provenance.packages(),
+        compiled=compiled,
     )
 
 

@@ -25,7 +25,7 @@ from .problem import Evaluation, Problem
 from .progress import GenerationRecord, Keeper
 from .refuting import RefutationSettings, refuted
 from .result import EvaluateResult, OptimizeResult
-from .search import SearchResult, SearchSettings, search
+from .search import SearchResult, SearchSettings, compiled_loops, search
 from .structured import structured_designs
 
 __all__ = [
@@ -69,6 +69,7 @@ __all__ = [
     "assess_acquisitions",
     "assess_placed",
     "certify",
+    "compiled_loops",
     "dem_verdict",
     "findings",
     "looks_for",

@@ -159,10 +159,8 @@ def search(
     by a KeyboardInterrupt, it is the best so far, marked `interrupted`.
     """
     run = _Search(problem, space, on_generation, should_stop, keeper or Forgetful(), evaluator)
-    algorithm = settings.algorithm
-    length = algorithm.population * algorithm.generations * settings.islands.number
-    if evaluator is None and length >= _COMPILED_FROM:
-        run.evaluator = compiled_evaluator(problem, space)
+    if evaluator is None:
+        run.evaluator = compiled_loops(problem, space, settings)
     state, refined = run.restore()
     interrupted = False
     try:
@@ -170,7 +168,7 @@ def search(
             run.evaluate,
             lower=-space.upper,
             upper=space.upper,
-            algorithm=algorithm,
+            algorithm=settings.algorithm,
             islands=settings.islands,
             rng=rng,
             start=start,
@@ -184,6 +182,25 @@ def search(
     if not interrupted:
         interrupted = run.refine_best(settings, refined)
     return run.result(settings, interrupted=interrupted)
+
+
+def compiled_loops(
+    problem: Problem, space: DesignSpace, settings: SearchSettings
+) -> CompiledEvaluator | None:
+    """Return the compiled loops that a search takes if it is given no evaluator.
+
+    Parameters
+    ----------
+    problem, space, settings : of the search.
+
+    Returns
+    -------
+    CompiledEvaluator; None where arrays score the designs: the search is too short, or see
+    `compiled_evaluator`.
+    """
+    algorithm = settings.algorithm
+    length = algorithm.population * algorithm.generations * settings.islands.number
+    return compiled_evaluator(problem, space) if length >= _COMPILED_FROM else None
 
 
 @dataclass

@@ -261,6 +261,27 @@ def test_functions_of_eight_numbers():
     np.testing.assert_allclose(found[:, 1].ravel(), np.exp(-8.0 * x), rtol=2e-15)
 
 
+_WITHOUT_JIT = """
+import os; os.environ["NUMBA_DISABLE_JIT"] = "1"
+import optimize.kernel.evaluator as e
+e.supported = lambda *_: True
+assert e.compiled_evaluator(None, None) is None
+"""
+
+
+def test_every_band_has_its_place_even_one_that_is_not_a_number():
+    from optimize.kernel.spectrum import _rank_ends
+
+    count, lane = 4, 3
+    offset = np.zeros((count, 8))
+    offset[:, lane] = [0.3, np.nan, 0.0, np.inf]
+    order, ends = np.zeros(count, dtype=np.int64), np.zeros((2 * count, 8))
+    low, high = np.full((2, count, 8), -1)
+    arrays = (order, ends, low, high)
+    _rank_ends(offset.ctypes.data, lane, count, *(array.ctypes.data for array in arrays))
+    assert sorted([*low[:, lane], *high[:, lane]]) == list(range(2 * count))
+
+
 def test_without_numba_there_is_no_compiled_form():
     code = (
         "import sys; sys.modules['numba'] = None\n"
@@ -269,5 +290,6 @@ def test_without_numba_there_is_no_compiled_form():
         "assert e.compiled_evaluator(None, None) is None\n"
     )
     subprocess.run([sys.executable, "-c", code], check=True)
+    subprocess.run([sys.executable, "-c", _WITHOUT_JIT], check=True)
     code = "import sys, optimize; assert 'numba' not in sys.modules"
     subprocess.run([sys.executable, "-c", code], check=True)

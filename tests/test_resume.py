@@ -158,6 +158,23 @@ def test_a_changed_study_is_refused_with_the_difference(study, tmp_path, monkeyp
     assert run(study, out, "--resume") == 0
 
 
+def test_a_search_in_compiled_loops_is_not_gone_on_with_in_arrays(
+    study, tmp_path, monkeypatch, capsys
+):
+    pytest.importorskip("numba")
+    study.write_text(STUDY.replace("generations: 30", "generations: 100"), encoding="utf-8")
+    out = tmp_path / "out"
+    unfinished(study, out, monkeypatch)
+    with monkeypatch.context() as without:
+        without.setitem(sys.modules, "optimize.kernel.score", None)  # its import fails
+        without.delattr("optimize.kernel.score")
+        assert run(study, out, "--resume") == 2
+    message = capsys.readouterr().err
+    assert "-formations scored by: compiled loops" in message
+    assert "+formations scored by: arrays" in message
+    assert run(study, out, "--resume") == 0
+
+
 def test_without_resume_a_run_starts_anew_and_says_so(
     study, undisturbed, tmp_path, monkeypatch, capsys
 ):
@@ -217,7 +234,7 @@ def test_after_ctrl_c_resume_goes_on_to_the_undisturbed_result(study, tmp_path):
 
 
 def test_a_checkpoint_keeps_every_bit(tmp_path):
-    identity = Identity({"a": 1}, 1, {}, {})
+    identity = Identity({"a": 1}, 1, {}, {}, compiled=False)
     first = Checkpoint(tmp_path, identity, resume=True)
     rng = np.random.default_rng(0)
     values = [*(rng.normal(size=50) * 10.0 ** rng.integers(-300, 300, 50)).tolist(), float("inf")]

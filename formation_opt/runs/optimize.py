@@ -13,6 +13,7 @@ from optimize import (
     SearchResult,
     assess,
     certify,
+    compiled_loops,
     dem_verdict,
     findings,
     refuted,
@@ -34,6 +35,8 @@ def run(study: OptimizeStudy, setup: OptimizeSetup, options: Options) -> Outcome
     """
     seed = study.search.seed if options.seed is None else options.seed
     options.on_start(setup.settings.algorithm.generations)
+    # As the search would choose, but known before: its results depend on it in the last digits.
+    loops = compiled_loops(setup.problem, setup.space, setup.settings)
     found = search(
         setup.problem,
         setup.space,
@@ -42,7 +45,8 @@ def run(study: OptimizeStudy, setup: OptimizeSetup, options: Options) -> Outcome
         start=None if setup.initial_design is None else setup.initial_design[None],
         on_generation=options.on_generation,
         should_stop=options.should_stop,
-        keeper=None if options.keeper is None else options.keeper(seed),
+        keeper=None if options.keeper is None else options.keeper(seed, loops is not None),
+        evaluator=loops,
     )
     best, initial, *compare = refuted(
         setup.problem,

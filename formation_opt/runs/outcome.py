@@ -22,14 +22,15 @@ class Options:
     on_start : called with the number of generations to come.
     on_generation : called after each.
     should_stop : whether the user asked to stop.
-    keeper : given the seed, what keeps the steps of a search; None keeps nothing.
+    keeper : given the seed, and whether compiled loops score the formations, what keeps the steps
+        of a search; None keeps nothing.
     """
 
     seed: int | None = None
     on_start: Callable[[int], None] = lambda _: None
     on_generation: Callable[[GenerationRecord], None] = lambda _: None
     should_stop: Callable[[], bool] = lambda: False
-    keeper: Callable[[int], Keeper] | None = None
+    keeper: Callable[[int, bool], Keeper] | None = None
 
 
 class Summary(NamedTuple):

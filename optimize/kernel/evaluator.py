@@ -135,9 +135,10 @@ def compiled_evaluator(problem: Problem, space: DesignSpace) -> CompiledEvaluato
 
     Returns
     -------
-    CompiledEvaluator; None where numba is not installed or can keep nothing of what it compiles,
-    or the problem has a part that the compiled loops do not know: volume or temporal decorrelation,
-    a family or a kind of problem of your own.
+    CompiledEvaluator; None where numba is not installed, is told to compile nothing
+    (NUMBA_DISABLE_JIT) or can keep nothing of what it compiles, or the problem has a part that the
+    compiled loops do not know: volume or temporal decorrelation, a family or a kind of problem of
+    your own.
     """
     if not supported(problem, space):
         return None

@@ -23,6 +23,9 @@ from numba.extending import intrinsic, lower_builtin, lower_cast, models, regist
 
 from .rooms import WIDTH
 
+if numba.config.DISABLE_JIT:
+    raise ImportError("numba compiles nothing: NUMBA_DISABLE_JIT is set")
+
 jit = numba.njit(nogil=True, error_model="numpy")
 
 _DOUBLE, _INTEGER = ir.DoubleType(), ir.IntType(64)

@@ -134,7 +134,9 @@ def _rank_ends(offset, lane, count, order, ends, low, high):
     for place in range(2 * count):
         image = integer(order, min(lower, count - 1)) * WIDTH + lane
         other = integer(order, min(upper, count - 1)) * WIDTH + lane
-        if lower < count and number(offset, image) <= number(offset, other) + 1.0:
+        # All begin, those that are not a number too: their places are read, and must be places.
+        ends_first = upper < count and number(offset, other) + 1.0 < number(offset, image)
+        if lower < count and not ends_first:
             put(ends, place * WIDTH + lane, number(offset, image))
             put_integer(low, image, place)
             lower += 1
