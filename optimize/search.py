@@ -37,7 +37,7 @@ _CLOSED_FORM_FROM = 6
 _CLOSED_FORM_BEYOND_LOOPS_FROM = 32
 """The same where compiled loops score the batch."""
 
-_COMPILED_FROM = 2000
+_COMPILED_FROM = 1000
 """Formations of the populations from which compiled loops earn back the half second that they take
 to load (docs/performance.md). Whether they are compiled already must not matter: their results
 differ from those of the arrays in the last digits."""
