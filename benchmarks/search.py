@@ -3,26 +3,25 @@
     python benchmarks/search.py [--seeds 50] [--satellites 3,5,8] [--only WORD]
         [--compiled] [--all] [--quick]
 
-For each seed our `search` runs first; each peer then gets as many evaluations as it used with that
-seed, differences for gradients included, of the same evaluator, in the same process, and ends
+Our `search` runs from all seeds first. With each seed, each peer then gets as many evaluations as
+it used, differences for gradients included, of the same evaluator, in the same process, and ends
 sooner where it is within 1e-4 of the best known. The peers (`peers.py`):
 
 - our search with another algorithm or without structured designs, and our genetic algorithm alone;
 - scipy's differential evolution, vectorized, with its own rules for the limits and with Deb's;
   scipy's dual annealing;
 - pymoo (GA, DE, CMA-ES), pygmo (sade, CMA-ES) and pycma, where they are installed
-  (`pip install -e '.[bench]'`); those that take 0.1 ms and more for each design get the first ten
-  seeds only;
+  (`pip install -e '.[bench]'`); those that take 0.1 ms and more for each design get five seeds;
 - with `--all` also plain DEAP (the same operators, one formation at a time) and scipy's
   differential evolution with penalties and with two ways to finish.
 
 The best known is that of long searches of ours, with other seeds, and of all runs; what the
-certificate proves of it is printed below each table. The table gives, over the seeds, the share of
-runs that come within 1e-4, the CPU time that a success costs (time of all runs until they are there
-or give up, over the number of successes), the share that ends feasible, the median and the worst
-region height error (`inf` where nothing feasible was found), the evaluations, and the time outside
-the evaluator (which takes design vectors to scores) per evaluation. CPU times, and of one machine:
-compare the ratios.
+certificate proves of it is printed above each table. Tables are printed every ten seeds. They give
+the share of runs that come within 1e-4, the CPU time that a success costs (time of all runs until
+they are there or give up, over the number of successes), the share that ends feasible, the median
+and the worst region height error (`inf` where nothing feasible was found), the evaluations, and the
+time outside the evaluator (which takes design vectors to scores) per evaluation. CPU times, and of
+one machine: compare the ratios.
 """
 
 from __future__ import annotations
@@ -50,7 +49,7 @@ from optimize.search import Evaluator
 
 Peer = Callable[[Task], None]
 
-SLOW_SEEDS = 10
+SLOW_SEEDS = 5
 """Runs of the peers that spend 0.1 ms and more on each design."""
 
 TOLERANCE = 1e-4
@@ -110,35 +109,55 @@ def run(
     return Run(meter, seconds, seconds - meter.seconds)
 
 
-def compare(landscape: Landscape, peers: dict[str, Peer], *, seeds: int, compiled: bool) -> None:
+class Comparison:
     """All peers on one landscape, seed by seed, so that a busy machine slows them alike."""
-    arrays = ArrayEvaluator(landscape.problem, landscape.space)
-    loops = compiled_evaluator(landscape.problem, landscape.space) if compiled else None
-    evaluator = arrays if loops is None else loops
-    known = best_known(landscape, evaluator)
-    within = (1.0 + TOLERANCE) * known.objective
-    runs: dict[str, list[Run]] = {name: [] for name in ("our search", *peers)}
-    for seed in range(seeds):
-        ours = run(our_search, landscape, evaluator, seed=seed)
-        runs["our search"].append(ours)
-        for name, peer in peers.items():
-            if name in SLOW and seed >= SLOW_SEEDS:
-                continue
-            budget = ours.evaluations
-            one = run(peer, landscape, evaluator, seed=seed, budget=budget, target=within)
-            runs[name].append(one)
-    best = min(known.objective, *(one.best for many in runs.values() for one in many))
-    form = "arrays" if loops is None else "compiled loops"
-    print(f"\n{landscape.name}: best known {best:.6f} m, {seeds} seeds, {form}")
-    print(
-        f"{'':34} {'runs':>4} {'≤ 1e-4':>7} {'s/success':>9} {'/ ours':>7}"
-        f" {'feasible':>8} {'median m':>9}"
-        f" {'worst m':>9} {'evals':>7} {'overhead µs':>11}"
-    )
-    reference = _summary(runs["our search"], best)
-    for name, many in runs.items():
-        print(f"{name:34} {_row(many, best, reference)}", flush=True)
-    print(_proved(landscape, known, best), flush=True)
+
+    def __init__(self, landscape: Landscape, peers: dict[str, Peer], *, compiled: bool) -> None:
+        loops = compiled_evaluator(landscape.problem, landscape.space) if compiled else None
+        arrays = ArrayEvaluator(landscape.problem, landscape.space)
+        self.form = "arrays" if loops is None else "compiled loops"
+        self.landscape, self.peers = landscape, peers
+        self.evaluator: Evaluator = arrays if loops is None else loops
+        self.known = best_known(landscape, self.evaluator)
+        self.proved = _proved(landscape, self.known)
+        self.runs: dict[str, list[Run]] = {name: [] for name in ("our search", *peers)}
+
+    def ours(self, seeds: int) -> None:
+        """Our search from all seeds."""
+        for seed in range(seeds):
+            self.runs["our search"].append(
+                run(our_search, self.landscape, self.evaluator, seed=seed)
+            )
+
+    def seed(self, seed: int) -> None:
+        """All peers from one seed."""
+        within = (1.0 + TOLERANCE) * self.known.objective
+        budget = self.runs["our search"][seed].evaluations
+        for name, peer in self.peers.items():
+            if name not in SLOW or seed < SLOW_SEEDS:
+                one = run(
+                    peer,
+                    self.landscape,
+                    self.evaluator,
+                    seed=seed,
+                    budget=budget,
+                    target=within,
+                )
+                self.runs[name].append(one)
+
+    def show(self) -> None:
+        """Print what is known so far."""
+        best = min(self.known.objective, *(one.best for many in self.runs.values() for one in many))
+        print(f"\n{self.landscape.name}: best known {best:.6f} m ({self.proved}), {self.form}")
+        print(
+            f"{'':34} {'runs':>4} {'≤ 1e-4':>7} {'s/success':>9} {'/ ours':>7}"
+            f" {'feasible':>8} {'median m':>9}"
+            f" {'worst m':>9} {'evals':>7} {'overhead µs':>11}"
+        )
+        reference = _summary(self.runs["our search"], best)
+        for name, many in self.runs.items():
+            if many:
+                print(f"{name:34} {_row(many, best, reference)}", flush=True)
 
 
 def best_known(landscape: Landscape, evaluator: Evaluator) -> SearchResult:
@@ -159,12 +178,12 @@ def best_known(landscape: Landscape, evaluator: Evaluator) -> SearchResult:
     return min(found, key=lambda one: one.objective if one.feasible else np.inf)
 
 
-def _proved(landscape: Landscape, known: SearchResult, best: float) -> str:
+def _proved(landscape: Landscape, known: SearchResult) -> str:
     """How far the best known is from the best possible at most."""
     bound = certify(landscape.problem, landscape.space, design=known.design).lower_bound
     if not np.isfinite(bound):
         return "no certificate"
-    gap = best / bound - 1.0
+    gap = known.objective / bound - 1.0
     word = "certified" if gap <= TOLERANCE else "not certified"
     return f"{word}: no formation below {bound:.6f} m (gap {gap:.1e})"
 
@@ -205,10 +224,21 @@ def main() -> None:
     options = parser.parse_args()
     peers = PEERS | OTHERS if options.all else PEERS
     counts = (3,) if options.quick else tuple(map(int, options.satellites.split(",")))
-    for landscape in landscapes(counts=counts, quick=options.quick):
-        if options.only in landscape.name:
-            seeds = 1 if options.quick else options.seeds
-            compare(landscape, peers, seeds=seeds, compiled=options.compiled)
+    seeds = 1 if options.quick else options.seeds
+    comparisons = [
+        Comparison(landscape, peers, compiled=options.compiled)
+        for landscape in landscapes(counts=counts, quick=options.quick)
+        if options.only in landscape.name
+    ]
+    for comparison in comparisons:
+        comparison.ours(seeds)
+    for seed in range(seeds):
+        for comparison in comparisons:
+            comparison.seed(seed)
+        if seed in (0, 4) or (seed + 1) % 10 == 0 or seed + 1 == seeds:
+            print(f"\n--- after {seed + 1} seeds of the peers")
+            for comparison in comparisons:
+                comparison.show()
 
 
 if __name__ == "__main__":
