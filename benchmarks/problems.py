@@ -154,7 +154,7 @@ def landscapes(*, counts: tuple[int, ...] = (3, 5, 8), quick: bool = False) -> l
         baseline_decorrelation=BaselineDecorrelation.UNFILTERED,
     )
     limits = Constraints(max_radius=1211.2, min_separation=100.0)
-    genetic = GeneticSettings(population=60, generations=10 if quick else 40)
+    genetic = GeneticSettings(population=40, generations=5 if quick else 25)
     settings = SearchSettings(genetic, refinements=1 if quick else 6)
     made: list[Landscape] = []
     for count in counts:

@@ -121,10 +121,10 @@ class SearchBlock(Block):
         "cma_es (DEAP).",
     )
     population: Whole = Field(
-        default=60, ge=4, le=10_000, description="Formations of a generation, on each island."
+        default=40, ge=4, le=10_000, description="Formations of a generation, on each island."
     )
     generations: Whole = Field(
-        default=40, ge=1, le=100_000, description="Generations after the first."
+        default=25, ge=1, le=100_000, description="Generations after the first."
     )
     seed: Whole = Field(
         default=1,

@@ -32,8 +32,8 @@ class GeneticSettings(NamedTuple):
     elite : best individuals that survive unchanged.
     """
 
-    population: int = 20
-    generations: int = 100
+    population: int = 40
+    generations: int = 25
     crossover_probability: float = 0.9
     mutation_probability: float = 0.2
     crossover_eta: float = 10.0

@@ -353,7 +353,7 @@ IN_THREE_SAT = {
         "seed: 1 ",
         "elite: 60 ",
         "60 ",
-        "search.elite = 60 must be below the population, 60; let fewer survive",
+        "search.elite = 60 must be below the population, 40; let fewer survive",
     ),
     "nothing where a block belongs": (
         "description: >-",
@@ -600,7 +600,7 @@ def test_a_missing_key_says_what_belongs_there(read):
 
 def test_a_study_that_no_memory_holds_is_refused(read):
     text = changed(THREE_SAT, "segments: 10 ", "segments: 1000 ")
-    text = changed(text, "population: 60", "population: 10000")
+    text = changed(text, "population: 40", "population: 10000")
     shown = read(text)
     assert shown.startswith(place(text, "scene:"))
     assert "has 1000 segments, which with 3 images and 10000 formations at a time is too" in shown
@@ -617,7 +617,7 @@ def test_settings_of_another_algorithm_are_refused(read):
     ) in read(text)
     text = changed(THREE_SAT, "method: genetic ", "method: differential_evolution #")
     assert "must be at least 5 for differential_evolution" in read(
-        changed(text, "population: 60", "population: 4")
+        changed(text, "population: 40", "population: 4")
     )
     assert "did you mean" in read(changed(THREE_SAT, "method: genetic ", "method: genetik #"))
 
