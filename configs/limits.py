@@ -139,7 +139,7 @@ class SearchBlock(Block):
         description="How many of the best, mutually distant designs are refined; 0 for none.",
     )
     structured_starts: Whole = Field(
-        default=4,
+        default=8,
         ge=0,
         le=100,
         description="How many structured designs (dumbbells and ladders) are refined besides, so "

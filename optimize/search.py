@@ -79,7 +79,7 @@ class SearchSettings(NamedTuple):
     algorithm: Algorithm = GeneticSettings()
     refinements: int = 6
     islands: IslandSettings = IslandSettings()
-    structured: int = 4
+    structured: int = 8
 
 
 @dataclass(frozen=True, eq=False)
