@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import os
 import subprocess
 import sys
 
@@ -259,6 +260,24 @@ def test_functions_of_eight_numbers():
     both(x.ctypes.data, found.ctypes.data, 100)
     np.testing.assert_allclose(found[:, 0].ravel(), erfc(x), rtol=5e-14)
     np.testing.assert_allclose(found[:, 1].ravel(), np.exp(-8.0 * x), rtol=2e-15)
+
+
+_FORKED = """
+import os, signal, sys
+import optimize.kernel.evaluator as e
+e._pool().submit(int).result()
+child = os.fork()
+if child == 0:
+    signal.alarm(20)  # where it hangs, this ends it
+    e._pool().submit(int).result()
+    os._exit(0)
+sys.exit(os.waitpid(child, 0)[1])
+"""
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork here")
+def test_a_forked_process_has_threads_of_its_own():
+    subprocess.run([sys.executable, "-c", _FORKED], check=True)
 
 
 _WITHOUT_JIT = """

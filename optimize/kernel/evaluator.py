@@ -125,6 +125,11 @@ def _pool() -> ThreadPoolExecutor:
     return ThreadPoolExecutor(_threads(), thread_name_prefix="formations")
 
 
+if hasattr(os, "register_at_fork"):
+    # A forked process has none of the threads that it believes to have, and would wait for ever.
+    os.register_at_fork(after_in_child=_pool.cache_clear)
+
+
 def compiled_evaluator(problem: Problem, space: DesignSpace) -> CompiledEvaluator | None:
     """Return the compiled form of a problem.
 
