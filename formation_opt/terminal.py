@@ -44,14 +44,15 @@ def progress(
         console=console,
         transient=True,
     ) as bar:
-        task = bar.add_task("searching", total=None, best="")
+        # The first generation may wait for the compiler: some 20 s, once after an installation.
+        task = bar.add_task("preparing", total=None, best="")
 
         def start(generations: int) -> None:
             bar.update(task, total=generations + 2)  # the first one, and the refinement
 
         def advance(record: GenerationRecord) -> None:
             best = f"best {meters(record.best)}" if np.isfinite(record.best) else "none feasible"
-            bar.update(task, advance=1, best=best)
+            bar.update(task, advance=1, best=best, description="searching")
             if bar.tasks[task].remaining == 1:
                 bar.update(task, description="refining")
 
