@@ -161,7 +161,10 @@ def build_optimize(study: OptimizeStudy) -> OptimizeSetup:
         refutation=build_refutation(study, problem),
         certificate=None
         if study.certificate is None
-        else CertificateSettings(max_boxes=study.certificate.max_boxes),
+        else CertificateSettings(
+            max_boxes=study.certificate.max_boxes,
+            target=study.certificate.target_height_error_m,
+        ),
         critical_baseline=critical,
         dem=dem,
         orbit=view.orbit,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pydantic import Field
 
-from .base import Block, Whole
+from .base import Block, Number, Whole
 
 
 class CertificateBlock(Block):
@@ -16,4 +16,12 @@ class CertificateBlock(Block):
         le=100_000_000,
         description="Boxes of projected baselines that the branch and bound looks at, for each "
         "cross-track sign; with more, a bound that has not closed becomes tighter.",
+    )
+    target_height_error_m: Number | None = Field(
+        default=None,
+        gt=0,
+        le=10_000,
+        description="Height error that the mission needs (total, RMS over the scene): the report "
+        "says whether it is reached, or proves that no formation reaches it and what would help. "
+        "The search always minimizes the error, whatever the target.",
     )

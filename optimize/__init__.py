@@ -10,7 +10,7 @@ from .assessment import (
     assess,
     assess_placed,
 )
-from .certificate import Certificate, CertificateSettings, certify
+from .certificate import Certificate, CertificateSettings, certify, judge_target
 from .claims import FormationClaim, FormationQuantity, OpenNumber, Over, measure, possible
 from .constraints import Bound, ConstraintReport, Constraints, FailureLimit, Limit
 from .covariance import CovarianceSettings
@@ -72,6 +72,7 @@ __all__ = [
     "compiled_loops",
     "dem_verdict",
     "findings",
+    "judge_target",
     "looks_for",
     "measure",
     "noise_excess",

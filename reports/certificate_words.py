@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from optimize.certificate import Certificate, Method
+from optimize.certificate import Certificate, Method, Relief, TargetVerdict
 
 from .document import Strong, Text
 from .wording import fixed, meters, significant
@@ -56,3 +56,27 @@ def verdict_text(certificate: Certificate | None, reason: str) -> Text:
         f"This one is {gap_text(certificate.gap)} above that; how much of the difference can be "
         "gained is not known.",
     )
+
+
+def target_text(target: TargetVerdict) -> Text:
+    """Whether the height error that is wanted is reached, or can be."""
+    wanted = f"The target of {meters(target.height_error, 4)}"
+    if target.reached:
+        return (Strong(f"{wanted} is reached."),)
+    if target.impossible is None:
+        return (
+            Strong(f"{wanted} is not reached; "),
+            "whether another formation reaches it is not known.",
+        )
+    helps = [
+        f"{relief.name} {relief_value(relief, relief.passes_at)}"
+        for relief in target.impossible.reliefs
+        if math.isfinite(relief.passes_at)
+    ]
+    enough = f" Enough alone: {', or '.join(helps)}." if helps else ""
+    return (Strong(f"{wanted} can't be reached, proven. "), target.impossible.statement, enough)
+
+
+def relief_value(relief: Relief, value: float) -> str:
+    """A value of a limit or an error, with its unit."""
+    return meters(value, 3) if relief.unit == "m" else f"{value:.4g} {relief.unit}".rstrip()

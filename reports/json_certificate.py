@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from optimize import OptimizeResult
+from optimize.certificate import Infeasibility, TargetVerdict
 
 from .json_numbers import Json, finite
 
@@ -20,6 +21,7 @@ def certificate_json(result: OptimizeResult) -> Json:
             "assumptions": [],
             "boxes": 0,
             "infeasibility": None,
+            "target": None,
         }
     strongest, blocked = certificate.strongest, certificate.infeasibility
     return {
@@ -37,21 +39,36 @@ def certificate_json(result: OptimizeResult) -> Json:
         ],
         "assumptions": list(certificate.assumptions),
         "boxes": certificate.boxes,
-        "infeasibility": None
-        if blocked is None
-        else {
-            "statement": blocked.statement,
-            "reliefs": [
-                {
-                    "name": relief.name,
-                    "unit": relief.unit,
-                    "limit": finite(relief.limit),
-                    "blocks_to": finite(relief.blocks_to),
-                    "passes_at": finite(relief.passes_at),
-                }
-                for relief in blocked.reliefs
-            ],
-        },
+        "infeasibility": None if blocked is None else _impossible(blocked),
+        "target": _target(certificate.target),
+    }
+
+
+def _target(target: TargetVerdict | None) -> Json | None:
+    if target is None:
+        return None
+    impossible = target.impossible
+    missed = "not_known" if impossible is None else "impossible"
+    return {
+        "height_error_m": target.height_error,
+        "verdict": "reached" if target.reached else missed,
+        "proof": None if impossible is None else _impossible(impossible),
+    }
+
+
+def _impossible(proof: Infeasibility) -> Json:
+    return {
+        "statement": proof.statement,
+        "reliefs": [
+            {
+                "name": relief.name,
+                "unit": relief.unit,
+                "limit": finite(relief.limit),
+                "blocks_to": finite(relief.blocks_to),
+                "passes_at": finite(relief.passes_at),
+            }
+            for relief in proof.reliefs
+        ],
     }
 
 

@@ -13,6 +13,7 @@ from insar.observe.agile.staring import StaringScene
 from insar.observe.scenes.cautions import cautions, orbit_cautions
 from insar.simulation import Refutation, Verdict
 from optimize import Assessment, Certificate, DemVerdict
+from optimize.certificate import TargetVerdict
 
 from .outcome import Options, Summary
 
@@ -69,6 +70,11 @@ def formation_summary(
     if certificate is not None and _says_something(certificate):
         elsewhere = ("",) * (len(shown) - 1)
         rows.append((_proven_of(certificate), (*elsewhere, _proven(certificate))))
+    if certificate is not None and certificate.target is not None:
+        elsewhere = ("",) * (len(shown) - 1)
+        wanted = certificate.target
+        label = f"target {meters(wanted.height_error)}"
+        rows.append((label, (*elsewhere, _reachable(wanted))))
     return Summary(tuple(a.label for a in shown), tuple(rows), warnings)
 
 
@@ -130,6 +136,12 @@ def _proven(certificate: Certificate) -> str:
     if not np.isfinite(certificate.gap):
         return f"{bound} (best: not feasible)"
     return f"{bound} (best: {100.0 * certificate.gap:.2g} % above)"
+
+
+def _reachable(target: TargetVerdict) -> str:
+    if target.reached:
+        return "reached"
+    return "not reached" if target.impossible is None else "out of reach, proven"
 
 
 def scene_cautions(observation: Observation | StaringScene | None) -> tuple[str, ...]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from configs import OptimizeStudy
@@ -16,6 +18,7 @@ from optimize import (
     compiled_loops,
     dem_verdict,
     findings,
+    judge_target,
     refuted,
     search,
 )
@@ -122,9 +125,18 @@ def _certificate(setup: OptimizeSetup, found: SearchResult) -> tuple[Certificate
         return None, "the study asks for no proof"
     if found.interrupted:
         return None, "the search was interrupted before its end"
-    certificate = certify(
-        setup.problem, setup.space, design=found.design, settings=setup.certificate
-    )
+    problem, space, settings = setup.problem, setup.space, setup.certificate
+    certificate = certify(problem, space, design=found.design, settings=settings)
+    if settings.target is not None:
+        target = judge_target(
+            problem,
+            space,
+            target=settings.target,
+            design=found.design,
+            certificate=certificate,
+            settings=settings,
+        )
+        certificate = replace(certificate, target=target)
     return certificate, ""
 
 

@@ -4,7 +4,16 @@ cvxpy is imported in `semidefinite` only, when it is used.
 """
 
 from .certify import CertificateSettings, certify
-from .result import Certificate, Convergence, Infeasibility, LowerBound, Method, Relief
+from .result import (
+    Certificate,
+    Convergence,
+    Infeasibility,
+    LowerBound,
+    Method,
+    Relief,
+    TargetVerdict,
+)
+from .target import judge_target
 
 __all__ = [
     "Certificate",
@@ -14,5 +23,7 @@ __all__ = [
     "LowerBound",
     "Method",
     "Relief",
+    "TargetVerdict",
     "certify",
+    "judge_target",
 ]

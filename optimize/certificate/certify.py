@@ -57,10 +57,12 @@ class CertificateSettings(NamedTuple):
         bound when they are used up. A number of boxes and not of seconds, so that a bound does not
         depend on the machine.
     tolerance : relative distance of bound and best at which the branch and bound is done.
+    target : height error that is wanted, for `judge_target`; None for none [m].
     """
 
     max_boxes: int = 400_000
     tolerance: float = 5e-4
+    target: float | None = None
 
 
 def certify(
@@ -83,6 +85,63 @@ def certify(
     -------
     Certificate — its lower bound holds whatever the design: a poor one only makes it looser.
     """
+    proof = _prove(problem, space, design, settings)
+    blocked: Infeasibility | None = None
+    if proof.exhausted:
+        blocked = infeasibility(problem, space, proof.trees, settings.max_boxes)
+    elif not proof.feasible:
+        blocked = packing_proof(problem, space)
+    leading = min(proof.trees, key=lambda tree: tree.value) if proof.trees else None
+    return Certificate(
+        objective=proof.objective,
+        bounds=tuple(proof.bounds),
+        assumptions=_assumptions(problem, proof.trees),
+        convergence=None if leading is None else leading.convergence,
+        boxes=sum(tree.boxes for tree in proof.trees),
+        infeasibility=blocked,
+    )
+
+
+def lower_bound(
+    problem: Problem, space: DesignSpace, *, design: Array, settings: CertificateSettings
+) -> float:
+    """Largest lower bound of the region height error, and nothing else of `certify` [m].
+
+    Parameters
+    ----------
+    problem, space, design, settings : as of `certify`.
+
+    Returns
+    -------
+    scalar — `inf` where no formation is feasible, 0 where no bound applies.
+    """
+    proof = _prove(problem, space, design, settings)
+    if proof.exhausted:
+        return math.inf
+    return max((one.value for one in proof.bounds if math.isfinite(one.value)), default=0.0)
+
+
+class _Proof(NamedTuple):
+    """Every bound that applies, and the trees that one of them comes from."""
+
+    objective: float
+    bounds: list[LowerBound]
+    trees: list[ProjectedBound]
+
+    @property
+    def feasible(self) -> bool:
+        """Whether the design keeps the limits."""
+        return math.isfinite(self.objective)
+
+    @property
+    def exhausted(self) -> bool:
+        """Whether the trees prove that no formation is feasible."""
+        return bool(self.trees) and all(math.isinf(tree.value) for tree in self.trees)
+
+
+def _prove(
+    problem: Problem, space: DesignSpace, design: Array, settings: CertificateSettings
+) -> _Proof:
     evaluation = problem.evaluate(space.states(design[None]))
     feasible = bool(evaluation.feasible[0])
     objective = float(evaluation.objectives[0]) if feasible else math.inf
@@ -93,24 +152,12 @@ def certify(
     start = points if feasible else None
     trees, reason = _trees(problem, space, signs, start, objective, settings)
     value = min((tree.value for tree in trees), default=math.nan)
-    blocked: Infeasibility | None = None
-    if trees and math.isinf(value):
-        blocked = infeasibility(problem, space, trees, settings.max_boxes)
+    if math.isinf(value):
         value, reason = math.nan, "no formation is feasible"
-    elif not feasible:
-        blocked = packing_proof(problem, space)
     if space.satellites >= _FEW or not trees:
         bounds.append(_separable(problem, space, signs))
     bounds.append(LowerBound(Method.BRANCH_AND_BOUND, value, reason))
-    leading = min(trees, key=lambda tree: tree.value) if trees else None
-    return Certificate(
-        objective=objective,
-        bounds=tuple(bounds),
-        assumptions=_assumptions(problem, trees),
-        convergence=None if leading is None else leading.convergence,
-        boxes=sum(tree.boxes for tree in trees),
-        infeasibility=blocked,
-    )
+    return _Proof(objective, bounds, trees)
 
 
 def _trees(
@@ -122,12 +169,10 @@ def _trees(
     settings: CertificateSettings,
 ) -> tuple[list[ProjectedBound], str]:
     """A branch and bound for each sign, or why there is none."""
-    radar, errors = problem.radar, problem.errors
-    gaps = len(relevant_satellites(radar)) - 1
-    if gaps > _MAX_GAPS:
-        return [], f"{gaps + 1} satellites are too many to exhaust their baselines"
-    if order_count(satellite_classes(radar, errors)) > MAX_ORDERS:
-        return [], "the satellites differ, and there are too many orders of them"
+    reason = why_no_trees(problem)
+    if reason:
+        return [], reason
+    gaps = len(relevant_satellites(problem.radar)) - 1
     trees = []
     for sign in signs:
         tree = projected_bound(
@@ -157,6 +202,22 @@ def _trees(
             )
         trees.append(tree)
     return trees, ""
+
+
+def why_no_trees(problem: Problem) -> str:
+    """Why there is no branch and bound; empty where there is one.
+
+    Parameters
+    ----------
+    problem : for its images.
+    """
+    radar, errors = problem.radar, problem.errors
+    gaps = len(relevant_satellites(radar)) - 1
+    if gaps > _MAX_GAPS:
+        return f"{gaps + 1} satellites are too many to exhaust their baselines"
+    if order_count(satellite_classes(radar, errors)) > MAX_ORDERS:
+        return "the satellites differ, and there are too many orders of them"
+    return ""
 
 
 def _convex_bounds(

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
-from dataclasses import replace
+from collections.abc import Sequence
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,15 +15,10 @@ from ..problem import Problem
 from ..projection import plane_radius
 from .projected import ProjectedBound, projected_bound
 from .realize import realize
+from .reliefs import reliefs
 from .result import Infeasibility, Relief
 
 Array = NDArray[np.float64]
-
-_FARTHEST = 32.0
-"""Factor by which a limit is relaxed at most."""
-
-_STEPS = 10
-"""Bisections of the value at which a limit no longer blocks."""
 
 _LOOSE = 0.999999
 """Tolerance of a tree that only asks whether something is feasible."""
@@ -103,7 +98,7 @@ def infeasibility(
         where = f"segment {segments[0]}"
     else:
         where = f"{len(segments)} of the segments"
-    statement = f"no {space.satellites} satellites{_within(limits, trees)}"
+    statement = f"no {space.satellites} satellites{within(limits, apart=any(tree.joint is not None for tree in trees))}"
     if limits.min_unwrapping_probability is not None:
         statement += (
             f" can be unwrapped with a probability of {limits.min_unwrapping_probability:.6g} from "
@@ -113,20 +108,22 @@ def infeasibility(
         statement += f" measure a height in {where}"
     return Infeasibility(
         statement=statement[0].upper() + statement[1:] + ".",
-        reliefs=tuple(
-            relief
-            for candidate in _candidates(limits)
-            if (relief := _relief(problem, space, candidate, max_boxes)) is not None
-        ),
+        reliefs=reliefs(problem, space, partial(_verdict, max_boxes=max_boxes)),
     )
 
 
-def _within(limits: Constraints, trees: Sequence[ProjectedBound]) -> str:
-    """The limits on places that the proof counts on."""
+def within(limits: Constraints, *, apart: bool) -> str:
+    """The limits on places that a proof counts on, in words that begin with a space.
+
+    Parameters
+    ----------
+    limits : of the problem.
+    apart : whether the separation counts.
+    """
     parts = []
     if limits.max_radius is not None:
         parts.append(f"within a radius of {limits.max_radius:.4g} m")
-    if limits.min_separation is not None and any(tree.joint is not None for tree in trees):
+    if limits.min_separation is not None and apart:
         parts.append(f"at least {limits.min_separation:.4g} m apart")
     if limits.max_baseline_fraction is not None:
         parts.append(
@@ -136,80 +133,17 @@ def _within(limits: Constraints, trees: Sequence[ProjectedBound]) -> str:
     return (" " + ", ".join(parts)) if parts else ""
 
 
-_Candidate = tuple[str, str, float, Callable[[float], float], Callable[[float], Constraints]]
-
-
-def _candidates(limits: Constraints) -> list[_Candidate]:
-    """Limits to relax: name, unit, value, value at a factor, and the limits with a value."""
-    found: list[_Candidate] = []
-    prior, probability = limits.prior_height_std, limits.min_unwrapping_probability
-    if prior is not None and probability is not None:
-        found += [
-            (
-                "standard deviation of the prior height",
-                "m",
-                prior,
-                lambda factor: prior / factor,
-                lambda value: replace(limits, prior_height_std=value),
-            ),
-            (
-                "probability of unwrapping",
-                "",
-                probability,
-                lambda factor: 1.0 - min(1.0 - 1e-9, (1.0 - probability) * factor),
-                lambda value: replace(limits, min_unwrapping_probability=value),
-            ),
-        ]
-    fraction = limits.max_baseline_fraction
-    if fraction is not None:
-        found.append(
-            (
-                "perpendicular over critical baseline",
-                "",
-                fraction,
-                lambda factor: fraction * factor,
-                lambda value: replace(limits, max_baseline_fraction=value),
-            )
-        )
-    return found
-
-
-def _relief(
-    problem: Problem, space: DesignSpace, candidate: _Candidate, max_boxes: int
-) -> Relief | None:
-    """Bisect a limit; None where relaxing it alone does not help."""
-    name, unit, limit, value_at, relaxed = candidate
-    blocks, passes = 1.0, math.nan
-    low, high = 0.0, math.log(_FARTHEST)
-    if _verdict(problem, space, relaxed(value_at(_FARTHEST)), max_boxes) is not True:
-        return None
-    passes = _FARTHEST
-    for _ in range(_STEPS):
-        middle = 0.5 * (low + high)
-        verdict = _verdict(problem, space, relaxed(value_at(math.exp(middle))), max_boxes)
-        if verdict is True:
-            high, passes = middle, math.exp(middle)
-        else:
-            low = middle
-            if verdict is False:
-                blocks = math.exp(middle)
-    return Relief(name, unit, limit, value_at(blocks), value_at(passes))
-
-
-def _verdict(
-    problem: Problem, space: DesignSpace, limits: Constraints, max_boxes: int
-) -> bool | None:
+def _verdict(problem: Problem, space: DesignSpace, *, max_boxes: int) -> bool | None:
     """Whether a formation that exists keeps the limits; False if proved that none does."""
-    eased = replace(problem, constraints=limits)
     proved = True
     for sign in dict.fromkeys(space.signs):
         bound = projected_bound(
-            eased, space, sign=sign, start=None, tolerance=_LOOSE, max_boxes=max_boxes
+            problem, space, sign=sign, start=None, tolerance=_LOOSE, max_boxes=max_boxes
         )
         if math.isinf(bound.value):
             continue
         proved = False
-        design = realize(eased, space, bound)
-        if design is not None and eased.evaluate(space.states(design[None])).feasible[0]:
+        design = realize(problem, space, bound)
+        if design is not None and problem.evaluate(space.states(design[None])).feasible[0]:
             return True
     return False if proved else None

@@ -89,6 +89,21 @@ class Infeasibility:
     reliefs: tuple[Relief, ...]
 
 
+class TargetVerdict(NamedTuple):
+    """Whether a height error that is wanted can be reached.
+
+    Attributes
+    ----------
+    height_error : scalar — the target [m].
+    reached : whether the design reaches it.
+    impossible : the proof that no formation does, and what would help; None if there is none.
+    """
+
+    height_error: float
+    reached: bool
+    impossible: Infeasibility | None
+
+
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Certificate:
     """Lower bounds of the region height error within the limits, and what they rest on.
@@ -101,6 +116,7 @@ class Certificate:
     convergence : of the branch and bound; None if it did not run.
     boxes : that the branch and bound looked at.
     infeasibility : the proof that nothing keeps the limits; None if there is none.
+    target : whether the height error that the study wants can be reached; None if it wants none.
     """
 
     objective: float
@@ -109,6 +125,7 @@ class Certificate:
     convergence: Convergence | None
     boxes: int
     infeasibility: Infeasibility | None = None
+    target: TargetVerdict | None = None
 
     @property
     def strongest(self) -> LowerBound | None:

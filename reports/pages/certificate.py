@@ -8,12 +8,12 @@ import numpy as np
 import pandas as pd
 
 from optimize import OptimizeResult
-from optimize.certificate import Certificate, Infeasibility
+from optimize.certificate import Certificate, Infeasibility, TargetVerdict
 
-from ..certificate_words import METHODS, gap_text, verdict_text
+from ..certificate_words import METHODS, gap_text, target_text, verdict_text
 from ..document import Block, Callout, Column, Figure, Paragraph, Section, Status, Table
 from ..figures.certificate import certificate_figure
-from ..wording import to_digits
+from ..wording import meters, to_digits
 
 _EXHAUSTION = (
     "In a segment, height error and unwrapping depend on the formation only through the distances "
@@ -35,9 +35,10 @@ def certificate_section(result: OptimizeResult) -> Section:
         return Section("certificate", title, (Paragraph(text),))
     blocks: list[Block] = []
     if certificate.infeasibility is not None:
-        blocks += _infeasible(certificate.infeasibility)
+        blocks += _infeasible(certificate.infeasibility, "No formation keeps these limits, proven")
     else:
         blocks.append(Paragraph(verdict_text(certificate, "")))
+        blocks += _target(certificate.target)
     if certificate.boxes:
         blocks.append(Paragraph(_EXHAUSTION))
     progress = certificate.convergence
@@ -59,12 +60,19 @@ def certificate_section(result: OptimizeResult) -> Section:
     return Section("certificate", title, tuple(blocks))
 
 
-def _infeasible(proof: Infeasibility) -> list[Block]:
-    blocks: list[Block] = [
-        Callout(Status.BAD, "No formation keeps these limits, proven", (proof.statement,))
-    ]
+def _target(target: TargetVerdict | None) -> list[Block]:
+    if target is None:
+        return []
+    if target.impossible is None:
+        return [Paragraph(target_text(target))]
+    wanted = f"A height error of {meters(target.height_error, 4)} can't be reached, proven"
+    return _infeasible(target.impossible, wanted)
+
+
+def _infeasible(proof: Infeasibility, title: str) -> list[Block]:
+    blocks: list[Block] = [Callout(Status.BAD, title, (proof.statement,))]
     if not proof.reliefs:
-        blocks.append(Paragraph("No single limit, relaxed alone, was found to be enough."))
+        blocks.append(Paragraph("No single limit or error, eased alone, was found to be enough."))
         return blocks
     frame = pd.DataFrame(
         [
@@ -82,12 +90,12 @@ def _infeasible(proof: Infeasibility) -> list[Block]:
         Table(
             frame,
             (
-                Column("name", "Limit"),
+                Column("name", "Limit or error"),
                 Column("limit", "As it is", "", digits),
                 Column("blocks", "Proven to block to", "", digits),
                 Column("passes", "A formation passes at", "", digits),
             ),
-            "What would help, each limit relaxed alone.",
+            "What would help, each limit or error eased alone.",
         )
     )
     return blocks

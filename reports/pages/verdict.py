@@ -5,7 +5,7 @@ from __future__ import annotations
 from insar.simulation import Verdict
 from optimize import Assessment, EvaluateResult, OptimizeResult, Problem, noise_excess
 
-from ..certificate_words import verdict_text
+from ..certificate_words import target_text, verdict_text
 from ..document import Block, Callout, Status, Strong, Text
 from ..reading import (
     active,
@@ -60,6 +60,8 @@ def optimize_verdict(result: OptimizeResult, unseen: int = 0) -> tuple[Block, ..
     if best.feasible:
         paragraphs.append((*_achieved(best, unseen), " ", _against(initial, best)))
         paragraphs.append(verdict_text(result.certificate, result.certificate_reason))
+        if result.certificate is not None and result.certificate.target is not None:
+            paragraphs.append(target_text(result.certificate.target))
         status, title = Status.GOOD, _title(best, unseen)
     else:
         paragraphs.append(
