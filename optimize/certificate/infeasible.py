@@ -98,7 +98,8 @@ def infeasibility(
         where = f"segment {segments[0]}"
     else:
         where = f"{len(segments)} of the segments"
-    statement = f"no {space.satellites} satellites{within(limits, apart=any(tree.joint is not None for tree in trees))}"
+    together = any(tree.joint is not None for tree in trees)
+    statement = f"no {space.satellites} satellites{within(limits, apart=together)}"
     if limits.min_unwrapping_probability is not None:
         statement += (
             f" can be unwrapped with a probability of {limits.min_unwrapping_probability:.6g} from "
