@@ -39,7 +39,7 @@ _MAX_JOINT_GAPS = 2
 """Gaps up to which a loose bound is followed by that of one formation for all segments."""
 
 _FEW = 5
-"""Satellites from which on a sum over single ones is tried beside the branch and bound."""
+"""Satellites from which on a sum over single ones is tried even beside a branch and bound."""
 
 _ROUNDING = 1e-9
 """Part by which a bound is lowered, for the rounding of its arithmetic."""

@@ -21,13 +21,9 @@ from insar.statistics import efficiency_curves
 
 from .filtered import FilteredWeights
 from .parted import BoxInformation, partitions
-from .shared import pair_variance
+from .shared import TABLE, pair_variance
 
 Array = NDArray[np.float64]
-
-_TABLE = 5e-5
-"""Part by which a tabulated efficiency may be off, with room to spare."""
-
 
 _SPREADS = (0.0, 0.5, np.inf)
 """Ends of the intervals of the azimuth spread that are bounded on their own [bandwidths]."""
@@ -148,7 +144,7 @@ class InformationBound:
             curves(self.radar.looks * np.maximum(0.0, band))
             for band in (1.0 - least, (1.0 - most) * left)
         ]
-        return np.asarray(np.minimum(1.0, np.maximum(*ends) * (1.0 + _TABLE)))
+        return np.asarray(np.minimum(1.0, np.maximum(*ends) * (1.0 + TABLE)))
 
     def _differences(self, lower: Array, upper: Array) -> tuple[Array, Array]:
         """Least and largest o_j − o_i of each pair over the boxes, (n, K) each."""
@@ -176,7 +172,7 @@ class InformationBound:
         if self.errors.phase_statistics is not PhaseStatistics.EXACT:
             return variance
         with np.errstate(invalid="ignore"):
-            exact = variance / pair_efficiency(coherence, looks) * (1.0 - _TABLE)
+            exact = variance / pair_efficiency(coherence, looks) * (1.0 - TABLE)
         return np.where(np.isfinite(variance), exact, np.inf)
 
     def _of_signal(self, count: int) -> Array:

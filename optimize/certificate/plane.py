@@ -20,7 +20,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Frame:
-    """The plane of the design variables, turned to the mean direction of the height.
+    """The plane of the design variables, turned to the common direction of the height.
 
     Parameters
     ----------
@@ -45,7 +45,7 @@ class Frame:
 
 
 def plane_frame(problem: Problem, space: DesignSpace, seen: Projection) -> Frame:
-    """Turn the plane of the design variables to the mean direction of the height.
+    """Turn the plane of the design variables to the common direction of the height.
 
     Parameters
     ----------
@@ -53,8 +53,9 @@ def plane_frame(problem: Problem, space: DesignSpace, seen: Projection) -> Frame
     space : the designs.
     seen : what each segment sees of the plane.
     """
-    mean = seen.height.mean(axis=0)
-    unit = mean / np.linalg.norm(mean)
+    # The line that the directions share, also where segments see it from opposite sides.
+    unit = np.linalg.svd(seen.height)[2][0]
+    unit = np.where(seen.height.sum(axis=0) @ unit < 0.0, -unit, unit)
     axes = np.array([unit, [-unit[1], unit[0]]])
     radius = plane_radius(space, max_radius=problem.constraints.max_radius)
     radius *= 1.0 + ROUNDING

@@ -30,6 +30,7 @@ from ..problem import Problem
 from ..projection import projection
 from .projected import ALIKE, ROUNDING, largest_coordinates
 from .reduction import why_not_reduced
+from .shared import TABLE
 
 Array = NDArray[np.float64]
 
@@ -45,9 +46,6 @@ more than memory should hold, and satellites that may stand so far apart have no
 
 _STEPS = 100
 """Steps of the search for the best c and θ."""
-
-_TABLE = 5e-5
-"""Part by which a tabulated efficiency may be off, with room to spare."""
 
 
 def why_not_separable(problem: Problem) -> str:
@@ -128,7 +126,7 @@ def _most_information(
         shifted = radar.azimuth_resolution is not None and not radar.pursuit
         least = 0.0 if shifted else max(0.0, 1.0 - 2.0 * edge)
         ends = pair_efficiency(amplitude**2, radar.looks * np.array([1.0, least]))
-        phase *= min(1.0, float(ends.max()) * (1.0 + _TABLE))
+        phase *= min(1.0, float(ends.max()) * (1.0 + TABLE))
     shared = errors.position.shared_by is SharedBy.SATELLITE and errors.position.std > 0.0
     turn = 2.0 * np.pi / radar.wavelength * errors.position.std * (2.0 if radar.pursuit else 1.0)
     line = line_of_satellites(edge, phase, turn**-2 if shared else math.inf)

@@ -11,6 +11,9 @@ from insar import ErrorBudget, Radar, SharedBy, Weighting
 
 Array = NDArray[np.float64]
 
+TABLE = 5e-5
+"""Part by which a tabulated efficiency may be off, with room to spare."""
+
 
 def shared_factor(radar: Radar, errors: ErrorBudget) -> Array:
     """Factor of the errors that images share and that do not depend on the formation.
