@@ -205,7 +205,8 @@ def test_the_refinement_ends_where_differences_lead(monkeypatch):
     import sys
 
     problem, space = build(6)
-    chosen = SearchSettings(GeneticSettings(population=30, generations=10), refinements=3)
+    genetic = GeneticSettings(population=30, generations=10)
+    chosen = SearchSettings(genetic, refinements=3, structured=4)
 
     def found():
         return search(problem, space, settings=chosen, rng=np.random.default_rng(1))
