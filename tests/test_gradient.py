@@ -216,4 +216,5 @@ def test_the_refinement_ends_where_differences_lead(monkeypatch):
     differenced = found()
     # Where descents end on the kinks of azimuth bands is theirs: a few millionths.
     assert closed.objective == pytest.approx(differenced.objective, rel=5e-6)
-    assert closed.evaluations < 0.2 * differenced.evaluations
+    # Populations and structured designs are scored in both.
+    assert closed.evaluations < 0.3 * differenced.evaluations
