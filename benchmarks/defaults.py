@@ -33,7 +33,7 @@ from optimize import (
     search,
 )
 from optimize.kernel import compiled_evaluator
-from optimize.search import Evaluator
+from optimize.scoring import Evaluator
 
 
 def genetic(

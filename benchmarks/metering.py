@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from optimize import DesignSpace, Evaluation, Problem
 from optimize.constraints import FEASIBILITY_TOLERANCE
-from optimize.search import Evaluator
+from optimize.scoring import Evaluator
 
 Array = NDArray[np.float64]
 Result = TypeVar("Result")

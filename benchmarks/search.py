@@ -45,7 +45,7 @@ from problems import Landscape, landscapes
 from optimize import GeneticSettings, SearchResult, SearchSettings, search
 from optimize.certificate import certify
 from optimize.kernel import compiled_evaluator
-from optimize.search import Evaluator
+from optimize.scoring import Evaluator
 
 Peer = Callable[[Task], None]
 

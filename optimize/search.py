@@ -9,20 +9,19 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .design_space import DesignSpace
 from .genetic import GeneticSettings
-from .gradient import DesignSlopes, design_slopes
 from .islands import Algorithm, Generation, IslandSettings, SearchMethod, generations
 from .kernel import CompiledEvaluator, compiled_evaluator
-from .problem import Evaluation, Problem
+from .problem import Problem
 from .progress import Candidate, Forgetful, GenerationRecord, Keeper, Step
 from .refinement import refine
+from .scoring import Evaluator, Scorer
 from .structured import structured_designs
 
 Array = NDArray[np.float64]
@@ -31,38 +30,10 @@ _DISTANCE = 0.3
 """Distance of designs that are refined, in parts of the box, largest coordinate: starts 5 % apart
 end in the same optimum, and the evaluations of all but one are wasted (docs/performance.md)."""
 
-_CLOSED_FORM_FROM = 6
-"""Satellites from which derivatives in closed form take less time than a batch of differences."""
-
-_CLOSED_FORM_BEYOND_LOOPS_FROM = 32
-"""The same where compiled loops score the batch."""
-
 _COMPILED_FROM = 1000
 """Formations of the populations from which compiled loops earn back the half second that they take
 to load (docs/performance.md). Whether they are compiled already must not matter: their results
 differ from those of the arrays in the last digits."""
-
-
-class Evaluator(Protocol):
-    """Scores designs; the arrays of `Problem` do, and the compiled loops."""
-
-    def evaluate(self, designs: Array) -> Evaluation:
-        """Score designs.
-
-        Parameters
-        ----------
-        designs : (P, D) — design vectors.
-        """
-        ...
-
-    def objectives_and_margins(self, designs: Array) -> tuple[Array, Array]:
-        """Height errors (P,) [m] and the margins of all limited items (P, items) of designs.
-
-        Parameters
-        ----------
-        designs : (P, D) — design vectors.
-        """
-        ...
 
 
 class SearchSettings(NamedTuple):
@@ -158,14 +129,15 @@ def search(
     SearchResult — never worse than a feasible `start` within the box. Stopped by `should_stop` or
     by a KeyboardInterrupt, it is the best so far, marked `interrupted`.
     """
-    run = _Search(problem, space, on_generation, should_stop, keeper or Forgetful(), evaluator)
     if evaluator is None:
-        run.evaluator = compiled_loops(problem, space, settings)
+        evaluator = compiled_loops(problem, space, settings)
+    scorer = Scorer(problem, space, should_stop, evaluator)
+    run = _Search(scorer, on_generation, keeper or Forgetful())
     state, refined = run.restore()
     interrupted = False
     try:
         for generation in generations(
-            run.evaluate,
+            scorer.evaluate,
             lower=-space.upper,
             upper=space.upper,
             algorithm=settings.algorithm,
@@ -207,26 +179,15 @@ def compiled_loops(
 class _Search:
     """The best design so far, and how it was reached."""
 
-    problem: Problem
-    space: DesignSpace
+    scorer: Scorer
     on_generation: Callable[[GenerationRecord], None] | None
-    should_stop: Callable[[], bool]
     keeper: Keeper
-    evaluator: Evaluator | None = None
-    evaluations: int = 0
     history: list[GenerationRecord] = field(default_factory=list)
     candidates: list[Candidate] = field(default_factory=list)
     population_objective: float = math.inf
     refined_objective: float = math.inf
     _best: Candidate | None = None
     _polished: Candidate | None = None
-
-    @cached_property
-    def slopes(self) -> Callable[[Array], DesignSlopes | None]:
-        first = _CLOSED_FORM_FROM if self.evaluator is None else _CLOSED_FORM_BEYOND_LOOPS_FROM
-        if self.space.satellites < first:
-            return lambda _design: None
-        return design_slopes(self.problem, self.space)
 
     @property
     def best_feasible(self) -> bool:
@@ -235,12 +196,6 @@ class _Search:
     @property
     def best_objective(self) -> float:
         return np.inf if self._best is None else self._best[1]
-
-    def evaluate(self, designs: Array) -> Evaluation:
-        self.evaluations += len(designs)
-        if self.evaluator is not None:
-            return self.evaluator.evaluate(designs)
-        return self.problem.evaluate(self.space.states(designs))
 
     def restore(self) -> tuple[dict[str, Any] | None, list[Step]]:
         """Take over what the keeper holds; return the last generation, and the refined after it."""
@@ -268,12 +223,12 @@ class _Search:
         )
         record = GenerationRecord(
             generation=generation.number,
-            evaluations=self.evaluations,
+            evaluations=self.scorer.evaluations,
             best=best,
             mean=float(objective[feasible].mean()) if feasible.any() else np.nan,
             feasible_fraction=float(feasible.mean()),
         )
-        step = Step(self.evaluations, candidates, record)
+        step = Step(self.scorer.evaluations, candidates, record)
         self.keeper.keep(step.plain(), generation.state)
         self._take(step)
 
@@ -292,7 +247,7 @@ class _Search:
             self._append(
                 GenerationRecord(
                     generation=self.history[-1].generation + 1,
-                    evaluations=self.evaluations,
+                    evaluations=self.scorer.evaluations,
                     best=self.best_objective if self.best_feasible else np.inf,
                     mean=np.nan,
                     feasible_fraction=np.nan,
@@ -309,7 +264,7 @@ class _Search:
             return False
         # The cross-track sign is a choice, which no descent crosses: the best is tried with the
         # other one too.
-        mirrored = self.space.mirrored(self._best[2])
+        mirrored = self.scorer.space.mirrored(self._best[2])
         if mirrored is not None and self._refine(mirrored, next(known, None)):
             return True
         interrupted = self._refine(self._best[2], next(known, None), rough=False)
@@ -319,8 +274,10 @@ class _Search:
     def _structured(self, count: int) -> Array:
         """The best dumbbells and ladders, (≤ count, D)."""
         if count == 0:
-            return np.empty((0, self.space.dimension))
-        return structured_designs(self.problem, self.space, count=count, evaluate=self.evaluate)
+            return np.empty((0, self.scorer.space.dimension))
+        return structured_designs(
+            self.scorer.problem, self.scorer.space, count=count, evaluate=self.scorer.evaluate
+        )
 
     def _refine(self, start: Array, known: Step | None, *, rough: bool = True) -> bool:
         """Refine one design, unless its outcome is known; return whether that was interrupted."""
@@ -328,17 +285,17 @@ class _Search:
             self._take(known)
             return False
         outcome = refine(
-            self._score,
+            self.scorer.score,
             start,
-            upper=self.space.upper,
-            free=2 * self.space.satellites,
-            differentiate=self._differentiate,
+            upper=self.scorer.space.upper,
+            free=2 * self.scorer.space.satellites,
+            differentiate=self.scorer.differentiate,
             rough=rough,
         )
-        evaluation = self.evaluate(outcome.design[None])
+        evaluation = self.scorer.evaluate(outcome.design[None])
         violation, objective = evaluation.total_violation, evaluation.objectives
         candidate = Candidate(float(violation[0]), float(objective[0]), outcome.design)
-        step = Step(self.evaluations, (candidate,))
+        step = Step(self.scorer.evaluations, (candidate,))
         if not outcome.interrupted:
             self.keeper.keep(step.plain(), None)
         self._take(step)
@@ -354,33 +311,16 @@ class _Search:
             feasible=self.best_feasible,
             population_objective=self.population_objective,
             refined_objective=self.refined_objective,
-            evaluations=self.evaluations,
+            evaluations=self.scorer.evaluations,
             history=tuple(self.history),
             interrupted=interrupted,
             settings=settings,
-            compiled=isinstance(self.evaluator, CompiledEvaluator),
+            compiled=isinstance(self.scorer.evaluator, CompiledEvaluator),
         )
-
-    def _score(self, designs: Array) -> tuple[Array, Array]:
-        if self.should_stop():
-            raise KeyboardInterrupt
-        self.evaluations += len(designs)
-        if self.evaluator is not None:
-            return self.evaluator.objectives_and_margins(designs)
-        objectives, margins = self.problem.objectives_and_margins(self.space.states(designs))
-        return objectives, np.concatenate([np.empty((len(designs), 0)), *margins], axis=-1)
-
-    def _differentiate(self, design: Array) -> DesignSlopes | None:
-        slopes = self.slopes(design)
-        if slopes is not None:
-            if self.should_stop():
-                raise KeyboardInterrupt
-            self.evaluations += 1
-        return slopes
 
     def _take(self, step: Step) -> None:
         """Count a step that is finished, in this run or in an earlier one."""
-        self.evaluations = step.evaluations
+        self.scorer.evaluations = step.evaluations
         for candidate in step.candidates:
             if self._best is None or candidate[:2] < self._best[:2]:
                 self._best = candidate
@@ -400,9 +340,10 @@ class _Search:
         for _, _, design in sorted(self.candidates, key=lambda c: c[:2]):
             if len(chosen) == count:
                 break
-            scaled = design / self.space.upper
+            scaled = design / self.scorer.space.upper
             if all(
-                np.max(np.abs(scaled - other / self.space.upper)) > _DISTANCE for other in chosen
+                np.max(np.abs(scaled - other / self.scorer.space.upper)) > _DISTANCE
+                for other in chosen
             ):
                 chosen.append(design)
         return chosen

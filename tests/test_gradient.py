@@ -212,7 +212,7 @@ def test_the_refinement_ends_where_differences_lead(monkeypatch):
         return search(problem, space, settings=chosen, rng=np.random.default_rng(1))
 
     closed = found()
-    monkeypatch.setattr(sys.modules["optimize.search"], "design_slopes", lambda *_: lambda _: None)
+    monkeypatch.setattr(sys.modules["optimize.scoring"], "design_slopes", lambda *_: lambda _: None)
     differenced = found()
     # Where descents end on the kinks of azimuth bands is theirs: a few millionths.
     assert closed.objective == pytest.approx(differenced.objective, rel=5e-6)
