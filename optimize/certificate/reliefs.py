@@ -61,28 +61,41 @@ def reliefs(problem: Problem, space: DesignSpace, verdict: Verdict) -> tuple[Rel
 
 
 def _candidates(problem: Problem, space: DesignSpace) -> list[Candidate]:
-    limits, errors = problem.constraints, problem.errors
+    return [
+        *_of_unwrapping(problem, space),
+        *_of_places(problem, space),
+        *_of_errors(problem, space),
+    ]
+
+
+def _of_unwrapping(problem: Problem, space: DesignSpace) -> list[Candidate]:
+    limits = problem.constraints
     prior, probability = limits.prior_height_std, limits.min_unwrapping_probability
+    if prior is None or probability is None:
+        return []
+    return [
+        Candidate(
+            "standard deviation of the prior height",
+            "m",
+            prior,
+            _FARTHEST,
+            lambda factor: prior / factor,
+            lambda value: (_limited(problem, prior_height_std=value), space),
+        ),
+        Candidate(
+            "probability of unwrapping",
+            "",
+            probability,
+            _FARTHEST,
+            lambda factor: 1.0 - min(1.0 - 1e-9, (1.0 - probability) * factor),
+            lambda value: (_limited(problem, min_unwrapping_probability=value), space),
+        ),
+    ]
+
+
+def _of_places(problem: Problem, space: DesignSpace) -> list[Candidate]:
+    limits = problem.constraints
     found: list[Candidate] = []
-    if prior is not None and probability is not None:
-        found += [
-            Candidate(
-                "standard deviation of the prior height",
-                "m",
-                prior,
-                _FARTHEST,
-                lambda factor: prior / factor,
-                lambda value: (_limited(problem, prior_height_std=value), space),
-            ),
-            Candidate(
-                "probability of unwrapping",
-                "",
-                probability,
-                _FARTHEST,
-                lambda factor: 1.0 - min(1.0 - 1e-9, (1.0 - probability) * factor),
-                lambda value: (_limited(problem, min_unwrapping_probability=value), space),
-            ),
-        ]
     fraction = limits.max_baseline_fraction
     if fraction is not None:
         found.append(
@@ -107,22 +120,26 @@ def _candidates(problem: Problem, space: DesignSpace) -> list[Candidate]:
                 lambda value: (_limited(problem, max_radius=value), _wider(space, value / radius)),
             )
         )
-    position = errors.position
-    if position.std > 0.0:
-        found.append(
-            Candidate(
-                "position error",
-                "m",
-                position.std,
-                _FARTHEST,
-                lambda factor: position.std / factor,
-                lambda value: (
-                    replace(problem, errors=replace(errors, position=position._replace(std=value))),
-                    space,
-                ),
-            )
-        )
     return found
+
+
+def _of_errors(problem: Problem, space: DesignSpace) -> list[Candidate]:
+    errors, position = problem.errors, problem.errors.position
+    if position.std == 0.0:
+        return []
+    return [
+        Candidate(
+            "position error",
+            "m",
+            position.std,
+            _FARTHEST,
+            lambda factor: position.std / factor,
+            lambda value: (
+                replace(problem, errors=replace(errors, position=position._replace(std=value))),
+                space,
+            ),
+        )
+    ]
 
 
 def _limited(problem: Problem, **limits: float) -> Problem:
