@@ -8,7 +8,7 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Annotated, Any
 
-from pydantic import PlainValidator, ValidationInfo, WithJsonSchema
+from pydantic import PlainSerializer, PlainValidator, ValidationInfo, WithJsonSchema
 from pydantic_core import PydanticCustomError
 
 from .base import wrong
@@ -121,9 +121,15 @@ def _unreadable(error: Exception) -> PydanticCustomError:
     return wrong((), f"cannot be read ({reason})", "check its name and its permissions")
 
 
+def _name(file: InputFile) -> str:
+    """As the study writes it: its content has a digest of its own."""
+    return file.name
+
+
 File = Annotated[
     InputFile,
     PlainValidator(_open),
+    PlainSerializer(_name, return_type=str),
     WithJsonSchema({"type": "string", "minLength": 1, "maxLength": _MAX_NAME, "format": "path"}),
 ]
 """A file, named by its path from the folder of the study; its content is read with the study."""
@@ -131,6 +137,7 @@ File = Annotated[
 BinaryFile = Annotated[
     InputFile,
     PlainValidator(_open_binary),
+    PlainSerializer(_name, return_type=str),
     WithJsonSchema({"type": "string", "minLength": 1, "maxLength": _MAX_NAME, "format": "path"}),
 ]
 """A file that is not text, named likewise."""
